@@ -1,0 +1,26 @@
+# airlight_shaders(TARGET ENTRY...): compiles GLSL entry points under shaders/ to SPIR-V and embeds them.
+#
+# `epipolar/or_scan.comp` becomes the header "spirv/epipolar/or_scan_comp.h" with the words
+# `k_or_scan_comp`. A shader error fails the build; an edited include rebuilds what includes it.
+find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
+
+function(airlight_shaders target)
+  set(outputs)
+  foreach(entry ${ARGN})
+    string(REPLACE "." "_" stem ${entry})
+    get_filename_component(name ${stem} NAME)
+    set(output ${CMAKE_BINARY_DIR}/embedded/${target}/spirv/${stem}.h)
+    get_filename_component(folder ${output} DIRECTORY)
+    file(MAKE_DIRECTORY ${folder})
+    add_custom_command(
+      OUTPUT ${output}
+      COMMAND ${GLSLANG_VALIDATOR} -G --target-env opengl -I${CMAKE_SOURCE_DIR}/shaders --quiet
+              --depfile ${output}.d --vn k_${name} -o ${output} ${CMAKE_SOURCE_DIR}/shaders/${entry}
+      DEPENDS ${CMAKE_SOURCE_DIR}/shaders/${entry}
+      DEPFILE ${output}.d
+      VERBATIM)
+    list(APPEND outputs ${output})
+  endforeach()
+  target_sources(${target} PRIVATE ${outputs})
+  target_include_directories(${target} PRIVATE ${CMAKE_BINARY_DIR}/embedded/${target})
+endfunction()

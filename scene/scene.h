@@ -1,0 +1,114 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace airlight::scene {
+
+/// A Lambert surface.
+struct Material {
+  glm::vec3 albedo{0.8f};  ///< diffuse reflectance, linear RGB in [0, 1]
+};
+
+/// Every surface of a scene as one triangle list in world space: right-handed, +Y up, metres.
+///
+/// All values are finite, no triangle has zero area, and the extent is small enough that squared distances
+/// do not overflow: the importers refuse or drop (and count) what is not.
+struct Geometry {
+  std::vector<glm::vec3> positions;          ///< world space [m]
+  std::vector<glm::uvec3> triangles;         ///< indices into `positions`
+  std::vector<std::uint32_t> material_of_triangle;  ///< indices into `materials`, one a triangle
+  std::vector<Material> materials;
+};
+
+/// An axis-aligned box. Empty while `lower > upper`.
+struct Box {
+  glm::vec3 lower{1e30f};
+  glm::vec3 upper{-1e30f};
+  bool empty() const { return lower.x > upper.x; }
+  void include(glm::vec3 point) {
+    lower = glm::min(lower, point);
+    upper = glm::max(upper, point);
+  }
+};
+
+/// The box of all positions that a triangle uses.
+Box bounds(const Geometry& geometry);
+
+/// A pinhole camera. The image plane's aspect ratio comes from the image, not from here.
+struct Camera {
+  std::string name;
+  glm::dvec3 eye{0.0};              ///< world space [m]
+  glm::dvec3 target{0.0, 0.0, -1.0};  ///< any point straight ahead, world space [m]
+  glm::dvec3 up{0.0, 1.0, 0.0};     ///< need not be perpendicular to the view
+  double vertical_fov_degrees = 45.0;
+};
+
+/// The orthonormal axes of a camera and the slopes of its image's edges.
+///
+/// The view ray of the point (x, y) of a W×H image, in pixels, row 0 at the top, is along
+/// forward + (2x/W − 1)·half_width·right + (1 − 2y/H)·half_height·up; pixel centres are at half-integers.
+struct CameraFrame {
+  glm::dvec3 eye, right, up, forward;
+  double half_width, half_height;  ///< tangents of half the horizontal and vertical fields of view
+};
+
+/// @throws Error (usage) when eye and target coincide, up is parallel to the view, the field of view is not inside
+/// (0°, 180°), a value is not finite, or the image has no pixels.
+CameraFrame camera_frame(const Camera& camera, glm::ivec2 image_size);
+
+/// A light that radiates alike in all directions from one point.
+struct PointLight {
+  std::string name;
+  glm::dvec3 position{0.0};  ///< world space [m]
+  glm::vec3 intensity{1.0f};  ///< radiant intensity, RGB [W/sr]; candela of a glTF file are read one to one
+};
+
+enum class PhaseFunction : std::uint32_t { isotropic = 0, rayleigh = 1, henyey_greenstein = 2 };
+
+/// A homogeneous participating medium that fills space.
+struct Medium {
+  glm::vec3 sigma_s{0.1f};  ///< scattering coefficient, RGB [1/m]
+  glm::vec3 sigma_a{0.0f};  ///< absorption coefficient, RGB [1/m]
+  PhaseFunction phase = PhaseFunction::isotropic;
+  float g = 0.0f;  ///< mean cosine of Henyey-Greenstein, in (−1, 1); > 0 scatters forward
+};
+
+/// What an importer dropped or could not represent: shown to the user, kept with the results.
+struct ImportReport {
+  std::size_t degenerate_triangles = 0;  ///< zero-area triangles, dropped
+  std::vector<std::string> warnings;     ///< one line each, with counts
+};
+
+/// A scene: what is rendered, with the views, lights and medium it brings along.
+struct Scene {
+  std::string name;
+  Geometry geometry;
+  std::vector<Camera> cameras;
+  std::vector<PointLight> lights;
+  Medium medium;
+  float exposure = 1.0f;  ///< of PNG previews: linear radiance is multiplied by it before sRGB encoding
+  ImportReport report;
+};
+
+/// What one image shows of a scene, all choices made. The geometry stays where it is.
+struct View {
+  Camera camera;
+  PointLight light;
+  Medium medium;
+  glm::ivec2 size{512, 512};  ///< pixels
+};
+
+/// Checks what every method relies on.
+/// @throws Error (bad_file) when the light coincides with the eye, or a value of the view is out of its domain
+/// (not finite, negative intensity or coefficient, |g| ≥ 1); (usage) as `camera_frame`.
+void validate(const View& view);
+
+/// A camera that sees all of the geometry, from the front (+Z), slightly above.
+Camera fit_camera(const Geometry& geometry);
+
+}  // namespace airlight::scene
