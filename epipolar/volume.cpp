@@ -1,0 +1,29 @@
+#include "epipolar/volume.h"
+
+#include "epipolar/space.h"
+
+#include "spirv/epipolar/phi_range_comp.h"
+
+namespace airlight::epipolar {
+
+ShadowVolume::ShadowVolume(const gpu::Context& context, const Resolution& resolution)
+    : grid_(context, resolution),
+      phi_range_(gpu::Program::compute(k_phi_range_comp)),
+      populate_(resolution),
+      scan_(resolution) {}
+
+void ShadowVolume::build(const frame::FrameInputs& inputs) const {
+  inputs.timer.time("ranges", [&] {
+    const shaders::EpipolarBlock block = epipolar_block(inputs.view, grid_.resolution().alpha);
+    grid_.block().write(&block, sizeof block);
+    grid_.phi_range().clear();
+    grid_.bind();
+    inputs.distance.bind_sampler(0);
+    const glm::uvec2 size = inputs.view.size;
+    phi_range_.dispatch({size.x, (size.y + 31) / 32, 1}, {64, 1, 1});
+  });
+  inputs.timer.time("populate", [&] { populate_.run(grid_, *inputs.shadow_map); });
+  inputs.timer.time("scan", [&] { scan_.run(grid_); });
+}
+
+}  // namespace airlight::epipolar

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace airlight::frame {
+
+/// A run of neighbouring triangles.
+struct Cluster {
+  std::uint32_t first_triangle;
+  std::uint32_t triangle_count;
+  scene::Box box;  ///< world space
+};
+
+/// The triangles of a scene in an order where neighbours in the list are neighbours in space, cut into clusters, so
+/// that a pass can leave out what it cannot see.
+struct Clusters {
+  std::vector<std::uint32_t> order;  ///< order[i]: which triangle of the geometry comes i-th
+  std::vector<Cluster> clusters;
+};
+
+inline constexpr std::uint32_t k_cluster_triangles = 128;
+
+/// Sorts triangles by the Morton code of their centroids.
+Clusters make_clusters(const scene::Geometry& geometry);
+
+/// A pyramid without a base, open at infinity.
+struct Pyramid {
+  glm::dvec3 apex;                            ///< world space
+  glm::dvec3 right, up, forward;              ///< orthonormal
+  double half_width, half_height;             ///< slopes of its sides
+};
+
+/// Whether a box may touch the pyramid: never wrongly "no".
+bool may_touch(const Pyramid& pyramid, const scene::Box& box);
+
+/// A lower bound of the distance from a point to the geometry [m], exact where the geometry's nearest triangle
+/// decides; +Inf without triangles.
+double distance_to_geometry(const scene::Geometry& geometry, const Clusters& clusters, glm::dvec3 point);
+
+}  // namespace airlight::frame

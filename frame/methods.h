@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "gpu/buffer.h"
+#include "gpu/context.h"
+#include "gpu/texture.h"
+#include "gpu/timer.h"
+#include "scene/scene.h"
+
+namespace airlight::frame {
+
+class SceneBuffers;
+class ShadowMap;
+
+/// What the methods of a frame read. The view's uniform block is bound at uniform binding 0 (shaders/frame/view.glsl).
+struct FrameInputs {
+  gpu::Context& context;
+  const scene::View& view;
+  const SceneBuffers& scene;
+  const gpu::Texture& triangles;  ///< r32ui: number of the triangle seen + 1, 0 for none
+  const gpu::Texture& distance;   ///< r32f: along the unit view ray [m], 0 for none
+  const ShadowMap* shadow_map;    ///< nullptr unless a method needs it
+  gpu::StageTimer& timer;
+};
+
+/// A method of surface shadow: one of the two places where a method plugs into the frame.
+class SurfaceShadow {
+ public:
+  virtual ~SurfaceShadow() = default;
+  virtual bool needs_shadow_map() const { return false; }
+
+  /// Writes 1 where a surface sees the light, 0 where it does not.
+  /// @param visibility r32f, of the image's size; what it holds where no surface is seen does not matter
+  virtual void query(const FrameInputs& inputs, const gpu::Texture& visibility) = 0;
+
+  /// Memory of its own on the GPU, by name.
+  virtual std::map<std::string, std::int64_t> bytes() const { return {}; }
+};
+
+/// A method of airlight: the other place.
+class Airlight {
+ public:
+  virtual ~Airlight() = default;
+  virtual bool needs_shadow_map() const { return false; }
+
+  /// Writes the light scattered once towards the eye along each view ray, RGB [W/(m² sr)].
+  /// @param radiance rgba32f, of the image's size
+  virtual void integrate(const FrameInputs& inputs, const gpu::Texture& radiance) = 0;
+
+  /// Memory of its own on the GPU, by name.
+  virtual std::map<std::string, std::int64_t> bytes() const { return {}; }
+};
+
+/// `none`: every surface is lit.
+class NoShadow : public SurfaceShadow {
+ public:
+  void query(const FrameInputs& inputs, const gpu::Texture& visibility) override;
+};
+
+/// `none`: no airlight.
+class NoAirlight : public Airlight {
+ public:
+  void integrate(const FrameInputs& inputs, const gpu::Texture& radiance) override;
+};
+
+}  // namespace airlight::frame

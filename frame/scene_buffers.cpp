@@ -1,0 +1,83 @@
+#include "frame/scene_buffers.h"
+
+#include <epoxy/gl.h>
+
+namespace airlight::frame {
+namespace {
+
+template <typename T>
+gpu::Buffer upload(const gpu::Context& context, const std::vector<T>& values, const char* what) {
+  gpu::require_storage_block(context.limits(), static_cast<std::int64_t>(values.size() * sizeof(T)), what,
+                             "use a model with fewer triangles");
+  return gpu::Buffer::from(std::span<const T>(values));
+}
+
+}  // namespace
+
+SceneBuffers::SceneBuffers(const gpu::Context& context, const scene::Geometry& geometry)
+    : geometry_(&geometry), clusters_(make_clusters(geometry)) {
+  std::vector<glm::uvec3> triangles;
+  std::vector<std::uint32_t> materials;
+  triangles.reserve(clusters_.order.size());
+  materials.reserve(clusters_.order.size());
+  for (const std::uint32_t triangle : clusters_.order) {
+    triangles.push_back(geometry.triangles[triangle]);
+    materials.push_back(geometry.material_of_triangle[triangle]);
+  }
+  std::vector<glm::vec4> albedos;
+  for (const scene::Material& material : geometry.materials) albedos.emplace_back(material.albedo, 0.0f);
+  std::vector<std::uint32_t> first_triangles;
+  for (const Cluster& cluster : clusters_.clusters) first_triangles.push_back(cluster.first_triangle);
+
+  positions_ = upload(context, geometry.positions, "the model's vertices");
+  indices_ = upload(context, triangles, "the model's triangles");
+  material_of_triangle_ = upload(context, materials, "the model's triangles");
+  albedos_ = upload(context, albedos, "the model's materials");
+  first_triangles_ = upload(context, first_triangles, "the model's clusters");
+
+  GLuint name = 0;
+  glCreateVertexArrays(1, &name);
+  vertex_array_ = gpu::Handle<gpu::delete_vertex_array>(name);
+  glVertexArrayElementBuffer(name, indices_.name());
+  glVertexArrayVertexBuffer(name, 0, positions_.name(), 0, sizeof(glm::vec3));
+  glVertexArrayAttribFormat(name, 0, 3, GL_FLOAT, GL_FALSE, 0);
+  glVertexArrayAttribBinding(name, 0, 0);
+  glEnableVertexArrayAttrib(name, 0);
+  glVertexArrayVertexBuffer(name, 1, first_triangles_.name(), 0, sizeof(std::uint32_t));
+  glVertexArrayAttribIFormat(name, 1, 1, GL_UNSIGNED_INT, 0);
+  glVertexArrayAttribBinding(name, 1, 1);
+  glVertexArrayBindingDivisor(name, 1, 1);  // one value a draw, picked by its base instance
+  glEnableVertexArrayAttrib(name, 1);
+}
+
+void SceneBuffers::bind_storage() const {
+  positions_.bind_storage(0);
+  indices_.bind_storage(1);
+  albedos_.bind_storage(2);
+  material_of_triangle_.bind_storage(3);
+}
+
+void SceneBuffers::draw(const Pyramid& pyramid) const {
+  glBindVertexArray(vertex_array_.get());
+  const auto& clusters = clusters_.clusters;
+  for (std::size_t i = 0; i < clusters.size();) {
+    if (!may_touch(pyramid, clusters[i].box)) {
+      ++i;
+      continue;
+    }
+    const std::size_t first = i;
+    std::uint32_t triangles = 0;
+    for (; i < clusters.size() && may_touch(pyramid, clusters[i].box); ++i) triangles += clusters[i].triangle_count;
+    const auto offset = static_cast<std::uintptr_t>(clusters[first].first_triangle) * sizeof(glm::uvec3);
+    glDrawElementsInstancedBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(3 * triangles), GL_UNSIGNED_INT,
+                                        reinterpret_cast<const void*>(offset), 1, static_cast<GLuint>(first));
+  }
+}
+
+double SceneBuffers::distance_to(glm::dvec3 point) const { return distance_to_geometry(*geometry_, clusters_, point); }
+
+std::int64_t SceneBuffers::bytes() const {
+  return positions_.bytes() + indices_.bytes() + albedos_.bytes() + material_of_triangle_.bytes();
+}
+
+}  // namespace airlight::frame

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "frame/clusters.h"
+#include "gpu/buffer.h"
+#include "gpu/context.h"
+#include "scene/scene.h"
+
+namespace airlight::frame {
+
+/// A scene's geometry on the GPU, in the order of its clusters. Triangle numbers of the shaders count in that order.
+class SceneBuffers {
+ public:
+  /// @throws scene::Error (driver) when a buffer would be larger than the driver allows.
+  SceneBuffers(const gpu::Context& context, const scene::Geometry& geometry);
+
+  /// Binds what shaders/frame/triangles.glsl and the composite read: storage bindings 0 to 3.
+  void bind_storage() const;
+
+  /// Draws what may lie in the pyramid. Vertex attributes: 0 = world position, 1 = first triangle of the draw.
+  void draw(const Pyramid& pyramid) const;
+
+  /// See frame::distance_to_geometry.
+  double distance_to(glm::dvec3 point) const;
+
+  std::int64_t bytes() const;
+
+ private:
+  const scene::Geometry* geometry_;
+  Clusters clusters_;
+  gpu::Buffer positions_, indices_, albedos_, material_of_triangle_, first_triangles_;
+  gpu::Handle<gpu::delete_vertex_array> vertex_array_;
+};
+
+}  // namespace airlight::frame

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "gpu/handle.h"
+
+namespace airlight::gpu {
+
+void delete_buffer(unsigned name);
+void delete_vertex_array(unsigned name);
+
+/// Immutable storage on the GPU. Never of size 0 for the driver: an empty buffer holds four unused bytes.
+class Buffer {
+ public:
+  Buffer() = default;
+
+  /// @param data initial contents, or nullptr for zeros; `bytes` of them
+  explicit Buffer(std::int64_t bytes, const void* data = nullptr);
+
+  template <typename T>
+  static Buffer from(std::span<const T> values) {
+    return Buffer(static_cast<std::int64_t>(values.size_bytes()), values.data());
+  }
+
+  unsigned name() const { return handle_.get(); }
+  std::int64_t bytes() const { return bytes_; }
+
+  void bind_storage(unsigned binding) const;  ///< as shader storage
+  void bind_uniform(unsigned binding) const;  ///< as a uniform block
+
+  void write(const void* data, std::int64_t bytes) const;  ///< from offset 0; the buffer must be that large
+  void clear() const;                                      ///< to zeros
+
+  /// Waits for the GPU and copies the contents back.
+  template <typename T>
+  std::vector<T> read() const {
+    std::vector<T> values(static_cast<std::size_t>(bytes_) / sizeof(T));
+    read_bytes(values.data());
+    return values;
+  }
+
+ private:
+  void read_bytes(void* destination) const;
+
+  Handle<delete_buffer> handle_;
+  std::int64_t bytes_ = 0;
+};
+
+}  // namespace airlight::gpu

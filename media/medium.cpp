@@ -1,0 +1,18 @@
+#include "media/medium.h"
+
+namespace airlight::media {
+
+static_assert(static_cast<unsigned>(scene::PhaseFunction::isotropic) == shaders::k_isotropic);
+static_assert(static_cast<unsigned>(scene::PhaseFunction::rayleigh) == shaders::k_rayleigh);
+static_assert(static_cast<unsigned>(scene::PhaseFunction::henyey_greenstein) == shaders::k_henyey_greenstein);
+
+shaders::MediumBlock medium_block(const scene::View& view) {
+  shaders::MediumBlock block{};
+  block.sigma_s = view.medium.sigma_s;
+  block.g = view.medium.g;
+  block.sigma_t = view.medium.sigma_s + view.medium.sigma_a;
+  block.intensity = view.light.intensity;
+  return block;
+}
+
+}  // namespace airlight::media

@@ -1,0 +1,69 @@
+#include "media/vsv.h"
+
+#include <array>
+
+#include "epipolar/space.h"
+#include "media/medium.h"
+
+#include "spirv/media/vsv_riemann_comp.h"
+#include "spirv/media/vsv_table_build_comp.h"
+#include "spirv/media/vsv_table_comp.h"
+
+namespace airlight::media {
+namespace {
+
+/// Rows of the table in α. S is smooth in α: linear interpolation between 256 rows over at most π errs by 2e-5 of S.
+constexpr std::uint32_t k_table_rows = 256;
+
+}  // namespace
+
+Vsv::Vsv(const gpu::Context& context, const epipolar::Resolution& resolution, VsvIntegral integral)
+    : volume_(context, resolution), integral_(integral), medium_block_(sizeof(shaders::MediumBlock)) {}
+
+void Vsv::load(const Variant& variant) {
+  if (loaded_ == variant) return;
+  const epipolar::Resolution& resolution = volume_.grid().resolution();
+  const auto grid = epipolar::resolution_constants(resolution);
+  const std::array<gpu::Constant, 6> constants = {grid[0], grid[1], grid[2], gpu::Constant(3, variant.phase),
+                                                  gpu::Constant(4, variant.channels), gpu::Constant(5, k_table_rows)};
+  if (integral_ == VsvIntegral::table) {
+    build_table_ = gpu::Program::compute(k_vsv_table_build_comp, constants);
+    integrate_ = gpu::Program::compute(k_vsv_table_comp, constants);
+    table_ = gpu::Buffer(std::int64_t{k_table_rows} * (resolution.phi + 1) * variant.channels * 8);
+  } else {
+    integrate_ = gpu::Program::compute(k_vsv_riemann_comp, std::span(constants).first<4>());
+  }
+  loaded_ = variant;
+}
+
+void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) {
+  volume_.build(inputs);
+
+  shaders::MediumBlock block = medium_block(inputs.view);
+  const bool is_grey = block.sigma_t.x == block.sigma_t.y && block.sigma_t.y == block.sigma_t.z;
+  load({static_cast<std::uint32_t>(inputs.view.medium.phase), is_grey ? 1u : 3u});
+  inputs.timer.time("table", [&] {
+    const epipolar::Resolution& resolution = volume_.grid().resolution();
+    const shaders::EpipolarBlock space = epipolar::epipolar_block(inputs.view, resolution.alpha);
+    block.table_row_step =
+        space.alpha_step * static_cast<float>(resolution.alpha) / static_cast<float>(k_table_rows - 1);
+    medium_block_.write(&block, sizeof block);
+    medium_block_.bind_uniform(2);
+    if (integral_ != VsvIntegral::table) return;
+    table_.bind_storage(6);
+    build_table_.dispatch({k_table_rows, 1, 1}, {8, 1, 1});
+  });
+  inputs.timer.time("integrate", [&] {
+    inputs.distance.bind_sampler(0);
+    radiance.bind_image(0);
+    integrate_.dispatch({inputs.view.size, 1}, {8, 8, 1});
+  });
+}
+
+std::map<std::string, std::int64_t> Vsv::bytes() const {
+  std::map<std::string, std::int64_t> bytes = {{"grid", volume_.grid().bits().bytes()}};
+  if (integral_ == VsvIntegral::table) bytes["table"] = table_.bytes();
+  return bytes;
+}
+
+}  // namespace airlight::media

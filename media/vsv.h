@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+
+#include "epipolar/volume.h"
+#include "frame/methods.h"
+
+namespace airlight::media {
+
+/// How the visibility bits become radiance.
+enum class VsvIntegral {
+  table,    ///< between changes of visibility, from a table of the unshadowed integral: exact up to the bits
+  riemann,  ///< the paper's sum over all samples (Eq. 5)
+};
+
+/// `vsv`: airlight from an epipolar voxelized shadow volume.
+/// Based on: Wyman, "Voxelized Shadow Volumes", HPG 2011, sections 2 and 3.
+class Vsv : public frame::Airlight {
+ public:
+  /// @throws scene::Error as epipolar::Grid.
+  Vsv(const gpu::Context& context, const epipolar::Resolution& resolution, VsvIntegral integral);
+
+  bool needs_shadow_map() const override { return true; }
+  void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override;
+  std::map<std::string, std::int64_t> bytes() const override;
+
+  const epipolar::ShadowVolume& volume() const { return volume_; }
+
+ private:
+  /// What the shaders are specialised for.
+  struct Variant {
+    std::uint32_t phase, channels;
+    bool operator==(const Variant&) const = default;
+  };
+  void load(const Variant& variant);
+
+  epipolar::ShadowVolume volume_;
+  VsvIntegral integral_;
+  gpu::Buffer medium_block_;
+  std::optional<Variant> loaded_;
+  gpu::Buffer table_;
+  gpu::Program build_table_, integrate_;
+};
+
+}  // namespace airlight::media

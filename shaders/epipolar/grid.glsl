@@ -1,0 +1,39 @@
+// The voxel grid: which cell holds what, and where its bit is stored.
+//
+// N_α × N_θ × N_φ bits. Cells in θ are equal and cover (−π, π]; cells in α cover the frame's range of α; cells in φ cover
+// [0, φ_max]. A cell is represented by its centre. One 128-bit texel (uvec4) holds 128 consecutive φ at one (α, θ),
+// lowest bit first; the N_φ / 128 texels of a view ray are neighbours in memory, then the rays of one plane in order of α.
+#ifndef AIRLIGHT_GRID_GLSL
+#define AIRLIGHT_GRID_GLSL
+#include "epipolar/space.glsl"
+
+FUNCTION float theta_step(uint theta_count) { return 2.0f * k_pi / float(theta_count); }
+
+// Centre of plane j.
+FUNCTION float theta_centre(uint j, uint theta_count) { return (float(j) + 0.5f) * theta_step(theta_count) - k_pi; }
+
+// The plane whose cell holds θ ∈ [−π, π].
+FUNCTION uint theta_cell(float theta, uint theta_count) {
+  float j = floor((theta + k_pi) / theta_step(theta_count));
+  return uint(clamp(j, 0.0f, float(theta_count) - 1.0f));
+}
+
+// The cell that holds α, the nearest one for an α outside the range.
+FUNCTION uint alpha_cell(IN(EpipolarBlock) space, float alpha, uint alpha_count) {
+  float i = floor((alpha - space.alpha_min) / space.alpha_step);
+  return uint(clamp(i, 0.0f, float(alpha_count) - 1.0f));
+}
+
+// The first cell whose centre lies in the shadow of an occluder at α: the boundary nearest to it, so that the shadow is
+// as often too long as too short. An occluder nearer the axis than the range shadows all of it. N_α if none.
+FUNCTION uint first_shadowed_cell(IN(EpipolarBlock) space, float alpha, uint alpha_count) {
+  float i = ceil((alpha - space.alpha_min) / space.alpha_step - 0.5f);
+  return uint(clamp(i, 0.0f, float(alpha_count)));
+}
+
+// Index of a 32-bit word of the grid: 32 consecutive φ from 32·word.
+FUNCTION uint grid_word(uint alpha, uint theta, uint word, uint alpha_count, uint words_per_ray) {
+  return (theta * alpha_count + alpha) * words_per_ray + word;
+}
+
+#endif

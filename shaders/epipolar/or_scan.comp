@@ -1,0 +1,21 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "epipolar/grid.glsl"
+#include "epipolar/resolution.glsl"
+
+// V(α_i) |= V(α_{i−1}) along α, for all (θ, φ) (Eq. 3): one invocation walks 128 light rays of one plane outwards.
+layout(local_size_x = 4, local_size_y = 4) in;  // neighbours in x share cache lines
+layout(std430, binding = 5) buffer Grid { uvec4 grid[]; };
+
+void main() {
+  uint texel = gl_GlobalInvocationID.x;
+  uint j = gl_GlobalInvocationID.y;
+  if (texel >= k_texels_per_ray || j >= k_theta_count) return;
+  uvec4 shadow = uvec4(0u);
+  uint at = j * k_alpha_count * k_texels_per_ray + texel;
+  for (uint i = 0u; i < k_alpha_count; ++i) {
+    shadow |= grid[at];
+    grid[at] = shadow;
+    at += k_texels_per_ray;
+  }
+}

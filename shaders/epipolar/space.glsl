@@ -1,0 +1,99 @@
+// Epipolar space: where a point lies as seen from the eye and from the light at once.
+//
+// Based on: Wyman, "Voxelized Shadow Volumes", HPG 2011, section 2.1. With eye E, light L, D = |L − E| and
+// l = (L − E) / D:
+//   α ∈ [0, π]      angle at the eye between l and the view ray
+//   θ ∈ (−π, π]     angle of the half-plane about l that holds the ray, from u towards f
+//   φ ∈ [0, π − α)  angle at the light between −l and the light ray; grows along the view ray from 0 at the eye
+// Deviation: every angle is an atan of cross and dot products. The paper's acos loses half the digits near 0 and π, where
+// the epipole is, and needs its argument clamped (its section 4.2).
+// All vectors are relative to the eye.
+#ifndef AIRLIGHT_SPACE_GLSL
+#define AIRLIGHT_SPACE_GLSL
+#include "shared.glsl"
+
+CONST float k_pi = 3.14159265358979f;
+
+// The frame of the space and the ranges of its grid; one uniform block (std140), written by epipolar/space.cpp.
+struct EpipolarBlock {
+  vec3 axis;         // l
+  float distance;    // D [m]
+  vec3 u;            // where θ = 0
+  float alpha_min;   // α range of the grid [rad]
+  vec3 f;            // where θ = π/2
+  float alpha_step;  // width of a cell in α [rad]
+};
+
+// Sine and cosine of α. Kept apart because sin α divides the airlight, and must be right to the last digit near 0 and π.
+struct EyeAngle {
+  float sine;
+  float cosine;
+};
+
+// α of a unit view ray, kept away from the two singular directions by `least_sine`.
+FUNCTION EyeAngle eye_angle(IN(EpipolarBlock) space, IN(vec3) ray, float least_sine) {
+  EyeAngle angle;
+  angle.sine = max(length(cross(space.axis, ray)), least_sine);
+  angle.cosine = dot(space.axis, ray);
+  return angle;
+}
+
+FUNCTION float alpha_of(IN(EyeAngle) angle) { return atan(angle.sine, angle.cosine); }
+
+// π − α, with all digits where α is near π.
+FUNCTION float alpha_complement(IN(EyeAngle) angle) { return atan(angle.sine, -angle.cosine); }
+
+// θ of a vector; 0 on the axis, where it has none.
+FUNCTION float theta_of(IN(EpipolarBlock) space, IN(vec3) vector) {
+  float y = dot(vector, space.f);
+  float x = dot(vector, space.u);
+  return x == 0.0f && y == 0.0f ? 0.0f : atan(y, x);
+}
+
+// φ of the point at distance t > 0 along a view ray.
+FUNCTION float phi_at(IN(EpipolarBlock) space, IN(EyeAngle) angle, float t) {
+  return atan(t * angle.sine, space.distance - t * angle.cosine);
+}
+
+// Inverse of phi_at: distance from the eye of the point at φ, by the law of sines. Needs φ < π − α.
+FUNCTION float distance_from_eye(IN(EpipolarBlock) space, IN(EyeAngle) angle, float phi) {
+  return space.distance * sin(phi) / (angle.sine * cos(phi) + angle.cosine * sin(phi));
+}
+
+// α of the point at distance r from the light on a light ray at φ.
+FUNCTION float alpha_at(IN(EpipolarBlock) space, float sin_phi, float cos_phi, float r) {
+  return atan(r * sin_phi, space.distance - r * cos_phi);
+}
+
+// Unit direction of the light ray (θ, φ).
+FUNCTION vec3 light_ray(IN(EpipolarBlock) space, float theta, float phi) {
+  return sin(phi) * (cos(theta) * space.u + sin(theta) * space.f) - cos(phi) * space.axis;
+}
+
+// Unit direction of the view ray (α, θ).
+FUNCTION vec3 view_ray_of(IN(EpipolarBlock) space, float alpha, float theta) {
+  return sin(alpha) * (cos(theta) * space.u + sin(theta) * space.f) + cos(alpha) * space.axis;
+}
+
+// Length of the path from the light to the eye by way of (α, φ): t + r = D cos((α − φ)/2) / cos((α + φ)/2), which has
+// no 0/0. Taken from π − α, it is right to the last digit near α = π too. Infinite at α + φ = π.
+FUNCTION float path_length(IN(EpipolarBlock) space, float complement, float phi) {
+  float opening = sin(0.5f * max(complement - phi, 0.0f));  // cos((α + φ)/2)
+  float closing = sin(0.5f * (complement + phi));           // cos((α − φ)/2)
+  return opening > 0.0f ? space.distance * closing / opening : 1e30f;
+}
+
+// A number in [0, 2] that grows with the angle of (x, y), y ≥ 0, from 0 at +x to 2 at −x: what is enough to find the
+// largest of many angles.
+FUNCTION float angle_order(float y, float x) {
+  float size = abs(x) + y;
+  return size > 0.0f ? 1.0f - x / size : 0.0f;
+}
+
+// The angle whose order it is.
+FUNCTION float angle_from_order(float order) {
+  float x = 1.0f - order;
+  return atan(1.0f - abs(x), x);
+}
+
+#endif

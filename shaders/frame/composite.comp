@@ -1,0 +1,40 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "frame/view.glsl"
+#include "frame/triangles.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(std140, binding = 0) uniform ViewUniform { ViewBlock view; };
+layout(binding = 0) uniform usampler2D triangle_plus_one;
+layout(binding = 1) uniform sampler2D distance_image;
+layout(binding = 2) uniform sampler2D visibility_image;
+layout(binding = 3) uniform sampler2D airlight_image;
+layout(std430, binding = 2) readonly buffer Albedos { vec4 albedos[]; };
+layout(std430, binding = 3) readonly buffer MaterialOfTriangle { uint material_of_triangle[]; };
+layout(binding = 0, rgba32f) uniform writeonly image2D radiance_image;
+
+const float k_pi = 3.14159265358979;
+
+// Lambert surfaces lit by the point light, attenuated from the light to the surface and on to the eye, plus airlight.
+void main() {
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(vec2(pixel), vec2(view.image_width, view.image_height)))) return;
+  vec3 radiance = texelFetch(airlight_image, pixel, 0).rgb;
+  uint seen = texelFetch(triangle_plus_one, pixel, 0).r;
+  float visibility = texelFetch(visibility_image, pixel, 0).r;
+  if (seen != 0u && visibility > 0.0) {
+    vec3 a, b, c;
+    triangle_corners(view, seen - 1u, a, b, c);
+    vec3 normal = normalize(cross(b - a, c - a));
+    vec3 ray = view_ray(view, vec2(pixel) + 0.5);
+    float distance = texelFetch(distance_image, pixel, 0).r;
+    vec3 to_light = view.light - distance * ray;
+    float r = length(to_light);
+    // The surface has two sides; only the one that faces the eye is seen.
+    float cosine = dot(normal, to_light) * (dot(normal, ray) > 0.0 ? -1.0 : 1.0) / max(r, 1e-30);
+    vec3 albedo = albedos[material_of_triangle[seen - 1u]].rgb;
+    radiance += visibility * max(cosine, 0.0) * albedo / k_pi * view.intensity / max(r * r, 1e-30) *
+                exp(-view.sigma_t * (r + distance));
+  }
+  imageStore(radiance_image, pixel, vec4(radiance, 1.0));
+}

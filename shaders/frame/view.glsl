@@ -1,0 +1,57 @@
+// The view as the shaders see it: all positions relative to the eye, so that coordinates far from the origin cost
+// no precision.
+#ifndef AIRLIGHT_VIEW_GLSL
+#define AIRLIGHT_VIEW_GLSL
+#include "shared.glsl"
+
+// One uniform block (std140) for all stages of a frame; written by frame/frame.cpp.
+struct ViewBlock {
+  vec3 eye_high;     // eye, world space [m], rounded to float …
+  float half_width;  // tangent of half the horizontal field of view
+  vec3 eye_low;      // … and what the rounding left
+  float half_height; // tangent of half the vertical field of view
+  vec3 right;        // axes of the camera, world space
+  float image_width; // [pixels]
+  vec3 up;
+  float image_height;
+  vec3 forward;
+  float eye_near;    // depth [m] below which the G-buffer no longer orders surfaces
+  vec3 light;        // light − eye, world axes [m]
+  float light_near;  // depth [m] below which the shadow map no longer orders surfaces
+  vec3 intensity;    // radiant intensity of the light [W/sr]
+  float shadow_map_size;  // side of a cube face [texels]
+  vec3 sigma_t;      // extinction coefficient [1/m]
+  float padding;
+};
+
+// Position relative to the eye of a world-space position. Exact where the two are close (Sterbenz).
+FUNCTION vec3 eye_relative(IN(ViewBlock) view, vec3 world) { return (world - view.eye_high) - view.eye_low; }
+
+// Unit direction of the view ray through a point of the image, in pixels from its top left corner; pixel centres lie
+// at half-integers.
+FUNCTION vec3 view_ray(IN(ViewBlock) view, vec2 pixel) {
+  float x = (2.0f * pixel.x / view.image_width - 1.0f) * view.half_width;
+  float y = (1.0f - 2.0f * pixel.y / view.image_height) * view.half_height;
+  return normalize(view.forward + x * view.right + y * view.up);
+}
+
+// Tangent of the angle that a quarter of a pixel spans at the image's centre: no view ray is taken to be nearer to the light's
+// direction than this, where airlight grows as 1/sin(α).
+FUNCTION float quarter_pixel(IN(ViewBlock) view) { return 0.5f * view.half_height / view.image_height; }
+
+// Distance along the unit ray `ray` from the eye to the plane of the triangle (a, b, c), positions relative to the
+// eye. Kept between the triangle's extremes along the ray, which matters for a triangle seen edge-on, whose plane
+// the ray may miss at a pixel that its rasterised edge still covers.
+FUNCTION float ray_triangle_distance(IN(vec3) ray, IN(vec3) a, IN(vec3) b, IN(vec3) c) {
+  vec3 normal = cross(b - a, c - a);
+  float da = dot(a, ray);
+  float db = dot(b, ray);
+  float dc = dot(c, ray);
+  float nearest = min(da, min(db, dc));
+  float farthest = max(da, max(db, dc));
+  float facing = dot(normal, ray);
+  float t = facing == 0.0f ? nearest : dot(normal, a) / facing;
+  return clamp(t, nearest, farthest);
+}
+
+#endif

@@ -1,0 +1,57 @@
+// The homogeneous medium: phase functions, and the integrand of airlight along a view ray.
+//
+// Airlight of a point light, single scattering, in epipolar coordinates (docs/method.md):
+//   L_s = σ_s I / (D sin α) ∫₀^{φ_d} e^{−σ_t (t + r)} p(α + φ) V(φ) dφ
+// Deviation from Wyman 2011, Eq. 4, which leaves the light's own extinction to L_in: here both paths are attenuated.
+#ifndef AIRLIGHT_MEDIUM_GLSL
+#define AIRLIGHT_MEDIUM_GLSL
+#include "epipolar/space.glsl"
+
+// One uniform block (std140), written by media/medium.cpp.
+struct MediumBlock {
+  vec3 sigma_s;          // scattering coefficient [1/m]
+  float g;               // mean cosine of Henyey-Greenstein
+  vec3 sigma_t;          // extinction coefficient [1/m]
+  float table_row_step;  // of the table integral: distance of its rows in α [rad]
+  vec3 intensity;        // radiant intensity of the light [W/sr]
+  float padding;
+};
+
+CONST uint k_isotropic = 0u;
+CONST uint k_rayleigh = 1u;
+CONST uint k_henyey_greenstein = 2u;
+
+// Phase function [1/sr] of the scattering angle's cosine: 1 where light goes on in its direction. Each integrates to 1 over the
+// sphere.
+FUNCTION float phase_function(uint kind, float g, float cosine) {
+  if (kind == k_rayleigh) return 3.0f / (16.0f * k_pi) * (1.0f + cosine * cosine);
+  if (kind == k_henyey_greenstein) {
+    float base = max(1.0f + g * g - 2.0f * g * cosine, 1e-12f);
+    return (1.0f - g * g) / (4.0f * k_pi * base * sqrt(base));
+  }
+  return 0.25f / k_pi;
+}
+
+// e^{−σ_t (t + r)} p(α + φ), one channel a component. `complement` is π − α, from which the scattering angle α + φ is
+// right near π too. 0 from α + φ = π on, where the path is infinite.
+FUNCTION vec3 airlight_integrand(IN(EpipolarBlock) space, IN(MediumBlock) medium, uint kind, float complement, float phi) {
+  float path = path_length(space, complement, phi);
+  return exp(-min(medium.sigma_t * path, vec3(80.0f))) * phase_function(kind, medium.g, -cos(complement - phi));
+}
+
+// ∫ airlight_integrand dφ over a short interval, by the two-point Gauss–Legendre rule.
+FUNCTION vec3 integrate_cell(IN(EpipolarBlock) space, IN(MediumBlock) medium, uint kind, float complement, float from,
+                             float to) {
+  float middle = 0.5f * (from + to);
+  float offset = 0.5f * 0.57735026919f * (to - from);
+  return 0.5f * (to - from) *
+         (airlight_integrand(space, medium, kind, complement, middle - offset) +
+          airlight_integrand(space, medium, kind, complement, middle + offset));
+}
+
+// What turns the integral over φ into radiance: σ_s I / (D sin α).
+FUNCTION vec3 airlight_scale(IN(EpipolarBlock) space, IN(MediumBlock) medium, float sin_alpha) {
+  return medium.sigma_s * medium.intensity / (space.distance * sin_alpha);
+}
+
+#endif

@@ -1,0 +1,26 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "media/vsv_ray.glsl"
+
+// Airlight from the shadow volume as the paper sums it (Eq. 5), in φ instead of t: the integrand at the centre of every lit
+// cell. A cell counts whole when its centre lies before the end of the ray.
+layout(local_size_x = 8, local_size_y = 8) in;
+
+void main() {
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(vec2(pixel), vec2(view.image_width, view.image_height)))) return;
+  VsvRay ray = vsv_ray(pixel);
+  vec3 sum = vec3(0.0);
+  for (uint word = 0u; word <= ray.last_cell >> 5; ++word) {
+    uint lit = ~grid[ray.texel + (word >> 2)][word & 3u];
+    if (word == ray.last_cell >> 5) lit &= low_bits((ray.last_cell & 31u) + 1u);
+    while (lit != 0u) {
+      uint k = 32u * word + uint(findLSB(lit));
+      lit &= lit - 1u;
+      float phi = (float(k) + 0.5) * ray.phi_step;
+      if (phi < ray.phi_end) sum += airlight_integrand(space, medium, k_phase, ray.complement, phi);
+    }
+  }
+  vec3 radiance = airlight_scale(space, medium, ray.angle.sine) * ray.phi_step * sum;
+  imageStore(airlight_image, pixel, vec4(radiance, 1.0));
+}

@@ -1,0 +1,76 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "media/vsv_ray.glsl"
+#include "media/vsv_table.glsl"
+
+// Airlight from the shadow volume, exact up to the visibility bits: between two changes of visibility the integral is a
+// difference of two entries of the table, so a pixel costs as many look-ups as it sees changes, not samples.
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(std430, binding = 6) readonly buffer Table { vec2 table[]; };
+
+// A ray that ends within this many cells is integrated directly: where α → π the integral and sin α vanish together, and
+// an interpolated table keeps no digits of their ratio.
+const uint k_direct_cells = 4u;
+
+// Sum of ±S over the changes of visibility of one word, by the two rows. The first change is from light to shadow.
+void add_changes(uint changes, uint first_cell, uint row_start, inout float sign, inout vec2 sum[3]) {
+  while (changes != 0u) {
+    uint k = first_cell + uint(findLSB(changes));
+    changes &= changes - 1u;
+    for (uint channel = 0u; channel < k_channels; ++channel) {
+      sum[channel] += sign * table[row_start + k * k_channels + channel];
+    }
+    sign = -sign;
+  }
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(vec2(pixel), vec2(view.image_width, view.image_height)))) return;
+  VsvRay ray = vsv_ray(pixel);
+
+  vec3 integral = vec3(0.0);
+  if (ray.last_cell < k_direct_cells) {
+    uint shadow = grid[ray.texel].x;
+    for (uint k = 0u; k <= ray.last_cell; ++k) {
+      if ((shadow >> k & 1u) != 0u) continue;
+      float from = float(k) * ray.phi_step;
+      float to = min(from + ray.phi_step, ray.phi_end);
+      if (to > from) integral += integrate_cell(space, medium, k_phase, ray.complement, from, to);
+    }
+  } else {
+    float row = clamp((ray.alpha - space.alpha_min) / medium.table_row_step, 0.0, float(k_table_rows) - 1.001);
+    uint row_start = table_index(uint(row), 0u, 0u);
+    float blend = row - floor(row);
+    vec2 sum[3] = vec2[3](vec2(0.0), vec2(0.0), vec2(0.0));
+    float sign = 1.0;  // + where light ends, − where it begins
+    uint before = 0u;  // the bit before a word's first; what lies before the first word counts as lit
+    uint last_word = ray.last_cell >> 5;
+    for (uint texel = 0u; texel <= last_word >> 2; ++texel) {
+      uvec4 words = grid[ray.texel + texel];
+      for (uint i = 0u; i < 4u; ++i) {
+        uint word = 4u * texel + i;
+        if (word > last_word) break;
+        uint shadow = words[i];
+        uint changes = shadow ^ (shadow << 1 | before);
+        before = shadow >> 31;
+        if (word == last_word) changes &= low_bits((ray.last_cell & 31u) + 1u);
+        add_changes(changes, 32u * word, row_start, sign, sum);
+      }
+    }
+    // The ray ends in light: close the last lit run.
+    if (sign > 0.0) {
+      uint entry = row_start + ray.last_cell * k_channels;
+      float within = ray.is_open ? 1.0 : clamp(ray.phi_end / ray.phi_step - float(ray.last_cell), 0.0, 1.0);
+      for (uint channel = 0u; channel < k_channels; ++channel) {
+        sum[channel] += mix(table[entry + channel], table[entry + k_channels + channel], within);
+      }
+    }
+    for (uint channel = 0u; channel < 3u; ++channel) {
+      vec2 rows = sum[min(channel, k_channels - 1u)];
+      integral[channel] = mix(rows.x, rows.y, blend);
+    }
+  }
+  vec3 radiance = airlight_scale(space, medium, ray.angle.sine) * max(integral, vec3(0.0));
+  imageStore(airlight_image, pixel, vec4(radiance, 1.0));
+}

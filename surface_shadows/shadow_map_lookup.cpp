@@ -1,0 +1,21 @@
+#include "surface_shadows/shadow_map_lookup.h"
+
+#include "frame/scene_buffers.h"
+#include "frame/shadow_map.h"
+
+#include "spirv/surface_shadows/shadow_map_lookup_comp.h"
+
+namespace airlight::surface_shadows {
+
+ShadowMapLookup::ShadowMapLookup() : program_(gpu::Program::compute(k_shadow_map_lookup_comp)) {}
+
+void ShadowMapLookup::query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) {
+  inputs.scene.bind_storage();
+  inputs.triangles.bind_sampler(0);
+  inputs.distance.bind_sampler(1);
+  inputs.shadow_map->depth().bind_sampler(2);
+  visibility.bind_image(0);
+  program_.dispatch({inputs.view.size, 1}, {8, 8, 1});
+}
+
+}  // namespace airlight::surface_shadows
