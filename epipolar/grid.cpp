@@ -34,6 +34,7 @@ Grid::Grid(const gpu::Context& context, const Resolution& resolution) : resoluti
                              fmt::format("the {} × {} × {} grid", resolution.alpha, resolution.theta, resolution.phi),
                              "ask for fewer cells with --alpha, --theta, --phi");
   bits_ = gpu::Buffer(bytes);
+  texels_ = {context, bits_, gpu::Format::rgba32ui, "the grid"};
   block_ = gpu::Buffer(sizeof(shaders::EpipolarBlock));
   phi_range_ = gpu::Buffer(sizeof(float));
 }
@@ -42,6 +43,7 @@ void Grid::bind() const {
   block_.bind_uniform(1);
   phi_range_.bind_storage(4);
   bits_.bind_storage(5);
+  texels_.bind_sampler(12);
 }
 
 }  // namespace airlight::epipolar

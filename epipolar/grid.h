@@ -5,6 +5,7 @@
 #include "gpu/buffer.h"
 #include "gpu/context.h"
 #include "gpu/program.h"
+#include "gpu/texture.h"
 
 namespace airlight::epipolar {
 
@@ -33,12 +34,14 @@ class Grid {
   const gpu::Buffer& block() const { return block_; }          ///< EpipolarBlock
   const gpu::Buffer& phi_range() const { return phi_range_; }  ///< see shaders/epipolar/phi_range.glsl
 
-  /// Binds the block to uniform binding 1, the φ range to storage binding 4, the bits to storage binding 5.
+  /// Binds the block to uniform binding 1, the φ range to storage binding 4, the bits to storage binding 5 and, as texels,
+  /// to sampler 12.
   void bind() const;
 
  private:
   Resolution resolution_;
   gpu::Buffer bits_, block_, phi_range_;
+  gpu::TexelView texels_;
 };
 
 }  // namespace airlight::epipolar

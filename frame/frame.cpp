@@ -124,7 +124,7 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
   timer.time("surface_query", [&] { surface_shadow.query(inputs, visibility_); });
   airlight.integrate(inputs, airlight_);  // times its own stages
   timer.time("composite", [&] {
-    scene_.bind_storage();
+    scene_.bind_samplers();
     gbuffer_->triangles().bind_sampler(0);
     gbuffer_->distance().bind_sampler(1);
     visibility_.bind_sampler(2);

@@ -19,7 +19,7 @@ void GBuffer::draw(const SceneBuffers& scene, const scene::CameraFrame& camera) 
   draw_.use();
   scene.draw({.apex = camera.eye, .right = camera.right, .up = camera.up, .forward = camera.forward,
               .half_width = camera.half_width, .half_height = camera.half_height});
-  scene.bind_storage();
+  scene.bind_samplers();
   triangles_.bind_sampler(0);
   distance_.bind_image(0);
   surface_distance_.dispatch({triangles_.size(), 1}, {8, 8, 1});

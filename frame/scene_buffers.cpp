@@ -6,9 +6,7 @@ namespace airlight::frame {
 namespace {
 
 template <typename T>
-gpu::Buffer upload(const gpu::Context& context, const std::vector<T>& values, const char* what) {
-  gpu::require_storage_block(context.limits(), static_cast<std::int64_t>(values.size() * sizeof(T)), what,
-                             "use a model with fewer triangles");
+gpu::Buffer upload(const std::vector<T>& values) {
   return gpu::Buffer::from(std::span<const T>(values));
 }
 
@@ -29,16 +27,20 @@ SceneBuffers::SceneBuffers(const gpu::Context& context, const scene::Geometry& g
   std::vector<std::uint32_t> first_triangles;
   for (const Cluster& cluster : clusters_.clusters) first_triangles.push_back(cluster.first_triangle);
 
-  positions_ = upload(context, geometry.positions, "the model's vertices");
-  indices_ = upload(context, triangles, "the model's triangles");
-  material_of_triangle_ = upload(context, materials, "the model's triangles");
-  albedos_ = upload(context, albedos, "the model's materials");
-  first_triangles_ = upload(context, first_triangles, "the model's clusters");
+  positions_ = upload(geometry.positions);
+  triangles_ = upload(triangles);
+  albedos_ = upload(albedos);
+  material_of_triangle_ = upload(materials);
+  first_triangles_ = upload(first_triangles);
+  position_texels_ = {context, positions_, gpu::Format::rgb32f, "the model's vertices"};
+  triangle_texels_ = {context, triangles_, gpu::Format::rgb32ui, "the model's triangles"};
+  albedo_texels_ = {context, albedos_, gpu::Format::rgba32f, "the model's materials"};
+  material_texels_ = {context, material_of_triangle_, gpu::Format::r32ui, "the model's triangles"};
 
   GLuint name = 0;
   glCreateVertexArrays(1, &name);
   vertex_array_ = gpu::Handle<gpu::delete_vertex_array>(name);
-  glVertexArrayElementBuffer(name, indices_.name());
+  glVertexArrayElementBuffer(name, triangles_.name());
   glVertexArrayVertexBuffer(name, 0, positions_.name(), 0, sizeof(glm::vec3));
   glVertexArrayAttribFormat(name, 0, 3, GL_FLOAT, GL_FALSE, 0);
   glVertexArrayAttribBinding(name, 0, 0);
@@ -50,11 +52,11 @@ SceneBuffers::SceneBuffers(const gpu::Context& context, const scene::Geometry& g
   glEnableVertexArrayAttrib(name, 1);
 }
 
-void SceneBuffers::bind_storage() const {
-  positions_.bind_storage(0);
-  indices_.bind_storage(1);
-  albedos_.bind_storage(2);
-  material_of_triangle_.bind_storage(3);
+void SceneBuffers::bind_samplers() const {
+  position_texels_.bind_sampler(8);
+  triangle_texels_.bind_sampler(9);
+  albedo_texels_.bind_sampler(10);
+  material_texels_.bind_sampler(11);
 }
 
 void SceneBuffers::draw(const Pyramid& pyramid) const {
@@ -77,7 +79,7 @@ void SceneBuffers::draw(const Pyramid& pyramid) const {
 double SceneBuffers::distance_to(glm::dvec3 point) const { return distance_to_geometry(*geometry_, clusters_, point); }
 
 std::int64_t SceneBuffers::bytes() const {
-  return positions_.bytes() + indices_.bytes() + albedos_.bytes() + material_of_triangle_.bytes();
+  return positions_.bytes() + triangles_.bytes() + albedos_.bytes() + material_of_triangle_.bytes();
 }
 
 }  // namespace airlight::frame

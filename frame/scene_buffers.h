@@ -3,6 +3,7 @@
 #include "frame/clusters.h"
 #include "gpu/buffer.h"
 #include "gpu/context.h"
+#include "gpu/texture.h"
 #include "scene/scene.h"
 
 namespace airlight::frame {
@@ -13,8 +14,8 @@ class SceneBuffers {
   /// @throws scene::Error (driver) when a buffer would be larger than the driver allows.
   SceneBuffers(const gpu::Context& context, const scene::Geometry& geometry);
 
-  /// Binds what shaders/frame/triangles.glsl and the composite read: storage bindings 0 to 3.
-  void bind_storage() const;
+  /// Binds what shaders/frame/triangles.glsl and the composite read: samplers 8 to 11.
+  void bind_samplers() const;
 
   /// Draws what may lie in the pyramid. Vertex attributes: 0 = world position, 1 = first triangle of the draw.
   void draw(const Pyramid& pyramid) const;
@@ -27,7 +28,8 @@ class SceneBuffers {
  private:
   const scene::Geometry* geometry_;
   Clusters clusters_;
-  gpu::Buffer positions_, indices_, albedos_, material_of_triangle_, first_triangles_;
+  gpu::Buffer positions_, triangles_, albedos_, material_of_triangle_, first_triangles_;
+  gpu::TexelView position_texels_, triangle_texels_, albedo_texels_, material_texels_;
   gpu::Handle<gpu::delete_vertex_array> vertex_array_;
 };
 

@@ -110,6 +110,7 @@ Context::Context() {
   GLint viewport[2] = {0, 0};
   glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
   limits_ = {.max_storage_block_bytes = storage_block,
+             .max_texel_buffer_texels = gl_integer(GL_MAX_TEXTURE_BUFFER_SIZE),
              .max_texture_size = gl_integer(GL_MAX_TEXTURE_SIZE),
              .max_viewport = std::min(viewport[0], viewport[1]),
              .max_array_layers = gl_integer(GL_MAX_ARRAY_TEXTURE_LAYERS),

@@ -2,6 +2,10 @@
 
 #include <cassert>
 
+#include <fmt/format.h>
+
+#include "scene/error.h"
+
 #include <epoxy/gl.h>
 
 namespace airlight::gpu {
@@ -15,6 +19,10 @@ struct FormatInfo {
 FormatInfo format_info(Format format) {
   switch (format) {
     case Format::r32ui: return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 1};
+    case Format::rgb32ui: return {GL_RGB32UI, GL_RGB_INTEGER, GL_UNSIGNED_INT, 3};
+    case Format::rgba32ui: return {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 4};
+    case Format::rg32f: return {GL_RG32F, GL_RG, GL_FLOAT, 2};
+    case Format::rgb32f: return {GL_RGB32F, GL_RGB, GL_FLOAT, 3};
     case Format::r32f: return {GL_R32F, GL_RED, GL_FLOAT, 1};
     case Format::rgba32f: return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 4};
     case Format::depth32f: return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 1};
@@ -64,6 +72,22 @@ void Texture::read_bytes(void* destination, std::size_t bytes) const {
   glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
   glGetTextureImage(name(), 0, info.format, info.type, static_cast<GLsizei>(bytes), destination);
 }
+
+TexelView::TexelView(const Context& context, const Buffer& buffer, Format format, const std::string& what) {
+  const FormatInfo info = format_info(format);
+  const std::int64_t texels = buffer.bytes() / (4 * info.channels);
+  if (texels > context.limits().max_texel_buffer_texels) {
+    throw scene::Error(scene::ExitCode::driver, what,
+                       fmt::format("{} elements are more than this driver's {} (GL_MAX_TEXTURE_BUFFER_SIZE)", texels,
+                                   context.limits().max_texel_buffer_texels));
+  }
+  GLuint name = 0;
+  glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);
+  handle_ = Handle<delete_texture>(name);
+  glTextureBuffer(name, info.internal_format, buffer.name());
+}
+
+void TexelView::bind_sampler(unsigned unit) const { glBindTextureUnit(unit, handle_.get()); }
 
 Framebuffer::Framebuffer(const Texture* colour, const Texture& depth, int depth_layer)
     : size_(depth.size()), has_colour_(colour != nullptr) {

@@ -20,7 +20,7 @@ constexpr std::uint32_t k_table_rows = 256;
 Vsv::Vsv(const gpu::Context& context, const epipolar::Resolution& resolution, VsvIntegral integral)
     : volume_(context, resolution), integral_(integral), medium_block_(sizeof(shaders::MediumBlock)) {}
 
-void Vsv::load(const Variant& variant) {
+void Vsv::load(const gpu::Context& context, const Variant& variant) {
   if (loaded_ == variant) return;
   const epipolar::Resolution& resolution = volume_.grid().resolution();
   const auto grid = epipolar::resolution_constants(resolution);
@@ -30,6 +30,7 @@ void Vsv::load(const Variant& variant) {
     build_table_ = gpu::Program::compute(k_vsv_table_build_comp, constants);
     integrate_ = gpu::Program::compute(k_vsv_table_comp, constants);
     table_ = gpu::Buffer(std::int64_t{k_table_rows} * (resolution.phi + 1) * variant.channels * 8);
+    table_texels_ = {context, table_, gpu::Format::rg32f, "the table integral"};
   } else {
     integrate_ = gpu::Program::compute(k_vsv_riemann_comp, std::span(constants).first<4>());
   }
@@ -41,7 +42,7 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
 
   shaders::MediumBlock block = medium_block(inputs.view);
   const bool is_grey = block.sigma_t.x == block.sigma_t.y && block.sigma_t.y == block.sigma_t.z;
-  load({static_cast<std::uint32_t>(inputs.view.medium.phase), is_grey ? 1u : 3u});
+  load(inputs.context, {static_cast<std::uint32_t>(inputs.view.medium.phase), is_grey ? 1u : 3u});
   inputs.timer.time("table", [&] {
     const epipolar::Resolution& resolution = volume_.grid().resolution();
     const shaders::EpipolarBlock space = epipolar::epipolar_block(inputs.view, resolution.alpha);
@@ -55,6 +56,7 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
   });
   inputs.timer.time("integrate", [&] {
     inputs.distance.bind_sampler(0);
+    if (integral_ == VsvIntegral::table) table_texels_.bind_sampler(13);
     radiance.bind_image(0);
     integrate_.dispatch({inputs.view.size, 1}, {8, 8, 1});
   });

@@ -32,13 +32,14 @@ class Vsv : public frame::Airlight {
     std::uint32_t phase, channels;
     bool operator==(const Variant&) const = default;
   };
-  void load(const Variant& variant);
+  void load(const gpu::Context& context, const Variant& variant);
 
   epipolar::ShadowVolume volume_;
   VsvIntegral integral_;
   gpu::Buffer medium_block_;
   std::optional<Variant> loaded_;
   gpu::Buffer table_;
+  gpu::TexelView table_texels_;
   gpu::Program build_table_, integrate_;
 };
 

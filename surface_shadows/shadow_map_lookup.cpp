@@ -10,7 +10,7 @@ namespace airlight::surface_shadows {
 ShadowMapLookup::ShadowMapLookup() : program_(gpu::Program::compute(k_shadow_map_lookup_comp)) {}
 
 void ShadowMapLookup::query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) {
-  inputs.scene.bind_storage();
+  inputs.scene.bind_samplers();
   inputs.triangles.bind_sampler(0);
   inputs.distance.bind_sampler(1);
   inputs.shadow_map->depth().bind_sampler(2);

@@ -5,7 +5,8 @@
 
 // V(α_i) |= V(α_{i−1}) along α, for all (θ, φ) (Eq. 3): one invocation walks 128 light rays of one plane outwards.
 layout(local_size_x = 4, local_size_y = 4) in;  // neighbours in x share cache lines
-layout(std430, binding = 5) buffer Grid { uvec4 grid[]; };
+layout(binding = 12) uniform usamplerBuffer grid_texels;  // the same bits: a texel is read only by who writes it later
+layout(std430, binding = 5) writeonly buffer Grid { uvec4 grid[]; };
 
 void main() {
   uint texel = gl_GlobalInvocationID.x;
@@ -14,7 +15,7 @@ void main() {
   uvec4 shadow = uvec4(0u);
   uint at = j * k_alpha_count * k_texels_per_ray + texel;
   for (uint i = 0u; i < k_alpha_count; ++i) {
-    shadow |= grid[at];
+    shadow |= texelFetch(grid_texels, int(at));
     grid[at] = shadow;
     at += k_texels_per_ray;
   }

@@ -9,8 +9,8 @@ layout(binding = 0) uniform usampler2D triangle_plus_one;
 layout(binding = 1) uniform sampler2D distance_image;
 layout(binding = 2) uniform sampler2D visibility_image;
 layout(binding = 3) uniform sampler2D airlight_image;
-layout(std430, binding = 2) readonly buffer Albedos { vec4 albedos[]; };
-layout(std430, binding = 3) readonly buffer MaterialOfTriangle { uint material_of_triangle[]; };
+layout(binding = 10) uniform samplerBuffer albedos;
+layout(binding = 11) uniform usamplerBuffer material_of_triangle;
 layout(binding = 0, rgba32f) uniform writeonly image2D radiance_image;
 
 const float k_pi = 3.14159265358979;
@@ -32,7 +32,7 @@ void main() {
     float r = length(to_light);
     // The surface has two sides; only the one that faces the eye is seen.
     float cosine = dot(normal, to_light) * (dot(normal, ray) > 0.0 ? -1.0 : 1.0) / max(r, 1e-30);
-    vec3 albedo = albedos[material_of_triangle[seen - 1u]].rgb;
+    vec3 albedo = texelFetch(albedos, int(texelFetch(material_of_triangle, int(seen) - 1).r)).rgb;
     radiance += visibility * max(cosine, 0.0) * albedo / k_pi * view.intensity / max(r * r, 1e-30) *
                 exp(-view.sigma_t * (r + distance));
   }

@@ -11,7 +11,7 @@ layout(std140, binding = 0) uniform ViewUniform { ViewBlock view; };
 layout(std140, binding = 1) uniform EpipolarUniform { EpipolarBlock space; };
 layout(std140, binding = 2) uniform MediumUniform { MediumBlock medium; };
 layout(binding = 0) uniform sampler2D distance_image;
-layout(std430, binding = 5) readonly buffer Grid { uvec4 grid[]; };
+layout(binding = 12) uniform usamplerBuffer grid_texels;
 layout(binding = 0, rgba32f) uniform writeonly image2D airlight_image;
 
 struct VsvRay {
@@ -21,7 +21,7 @@ struct VsvRay {
   float phi_end;     // where the ray ends
   float phi_step;
   uint last_cell;    // the cell in φ where it ends
-  uint texel;        // the first texel of its row of bits
+  int texel;         // the first texel of its row of bits
   bool is_open;      // meets no surface
 };
 
@@ -38,7 +38,7 @@ VsvRay vsv_ray(ivec2 pixel) {
   ray.last_cell = uint(clamp(floor(ray.phi_end / ray.phi_step), 0.0, float(k_phi_count) - 1.0));
   uint i = alpha_cell(space, ray.alpha, k_alpha_count);
   uint j = theta_cell(theta_of(space, direction), k_theta_count);
-  ray.texel = (j * k_alpha_count + i) * k_texels_per_ray;
+  ray.texel = int((j * k_alpha_count + i) * k_texels_per_ray);
   return ray;
 }
 

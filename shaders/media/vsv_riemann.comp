@@ -11,8 +11,11 @@ void main() {
   if (any(greaterThanEqual(vec2(pixel), vec2(view.image_width, view.image_height)))) return;
   VsvRay ray = vsv_ray(pixel);
   vec3 sum = vec3(0.0);
+  uvec4 words;
   for (uint word = 0u; word <= ray.last_cell >> 5; ++word) {
-    uint lit = ~grid[ray.texel + (word >> 2)][word & 3u];
+    if ((word & 3u) == 0u) words = texelFetch(grid_texels, ray.texel + int(word >> 2));
+    uint lit = ~words.x;
+    words.xyz = words.yzw;
     if (word == ray.last_cell >> 5) lit &= low_bits((ray.last_cell & 31u) + 1u);
     while (lit != 0u) {
       uint k = 32u * word + uint(findLSB(lit));

@@ -6,7 +6,7 @@
 // Airlight from the shadow volume, exact up to the visibility bits: between two changes of visibility the integral is a
 // difference of two entries of the table, so a pixel costs as many look-ups as it sees changes, not samples.
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(std430, binding = 6) readonly buffer Table { vec2 table[]; };
+layout(binding = 13) uniform samplerBuffer table;  // vec2
 
 // A ray that ends within this many cells is integrated directly: where α → π the integral and sin α vanish together, and
 // an interpolated table keeps no digits of their ratio.
@@ -18,7 +18,7 @@ void add_changes(uint changes, uint first_cell, uint row_start, inout float sign
     uint k = first_cell + uint(findLSB(changes));
     changes &= changes - 1u;
     for (uint channel = 0u; channel < k_channels; ++channel) {
-      sum[channel] += sign * table[row_start + k * k_channels + channel];
+      sum[channel] += sign * texelFetch(table, int(row_start + k * k_channels + channel)).xy;
     }
     sign = -sign;
   }
@@ -31,7 +31,7 @@ void main() {
 
   vec3 integral = vec3(0.0);
   if (ray.last_cell < k_direct_cells) {
-    uint shadow = grid[ray.texel].x;
+    uint shadow = texelFetch(grid_texels, ray.texel).x;
     for (uint k = 0u; k <= ray.last_cell; ++k) {
       if ((shadow >> k & 1u) != 0u) continue;
       float from = float(k) * ray.phi_step;
@@ -46,24 +46,23 @@ void main() {
     float sign = 1.0;  // + where light ends, − where it begins
     uint before = 0u;  // the bit before a word's first; what lies before the first word counts as lit
     uint last_word = ray.last_cell >> 5;
-    for (uint texel = 0u; texel <= last_word >> 2; ++texel) {
-      uvec4 words = grid[ray.texel + texel];
-      for (uint i = 0u; i < 4u; ++i) {
-        uint word = 4u * texel + i;
-        if (word > last_word) break;
-        uint shadow = words[i];
-        uint changes = shadow ^ (shadow << 1 | before);
-        before = shadow >> 31;
-        if (word == last_word) changes &= low_bits((ray.last_cell & 31u) + 1u);
-        add_changes(changes, 32u * word, row_start, sign, sum);
-      }
+    uvec4 words;
+    for (uint word = 0u; word <= last_word; ++word) {
+      if ((word & 3u) == 0u) words = texelFetch(grid_texels, ray.texel + int(word >> 2));
+      uint shadow = words.x;
+      words.xyz = words.yzw;
+      uint changes = shadow ^ (shadow << 1 | before);
+      before = shadow >> 31;
+      if (word == last_word) changes &= low_bits((ray.last_cell & 31u) + 1u);
+      add_changes(changes, 32u * word, row_start, sign, sum);
     }
     // The ray ends in light: close the last lit run.
     if (sign > 0.0) {
       uint entry = row_start + ray.last_cell * k_channels;
       float within = ray.is_open ? 1.0 : clamp(ray.phi_end / ray.phi_step - float(ray.last_cell), 0.0, 1.0);
       for (uint channel = 0u; channel < k_channels; ++channel) {
-        sum[channel] += mix(table[entry + channel], table[entry + k_channels + channel], within);
+        sum[channel] += mix(texelFetch(table, int(entry + channel)).xy,
+                            texelFetch(table, int(entry + k_channels + channel)).xy, within);
       }
     }
     for (uint channel = 0u; channel < 3u; ++channel) {
