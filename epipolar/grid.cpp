@@ -36,7 +36,7 @@ Grid::Grid(const gpu::Context& context, const Resolution& resolution) : resoluti
   bits_ = gpu::Buffer(bytes);
   texels_ = {context, bits_, gpu::Format::rgba32ui, "the grid"};
   block_ = gpu::Buffer(sizeof(shaders::EpipolarBlock));
-  phi_range_ = gpu::Buffer(sizeof(float));
+  phi_range_ = gpu::Buffer(2 * sizeof(float));
 }
 
 void Grid::bind() const {

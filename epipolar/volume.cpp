@@ -6,13 +6,17 @@
 
 namespace airlight::epipolar {
 
-ShadowVolume::ShadowVolume(const gpu::Context& context, const Resolution& resolution)
-    : grid_(context, resolution),
-      phi_range_(gpu::Program::compute(k_phi_range_comp)),
-      populate_(resolution),
-      scan_(resolution) {}
+ShadowVolume::ShadowVolume(const gpu::Context& context, const Resolution& resolution, Scan scan)
+    : grid_(context, resolution), phi_range_(gpu::Program::compute(k_phi_range_comp)) {
+  if (scan == Scan::fused) {
+    populate_scan_.emplace(resolution);
+  } else {
+    populate_.emplace(resolution);
+    scan_.emplace(resolution);
+  }
+}
 
-void ShadowVolume::build(const frame::FrameInputs& inputs) const {
+void ShadowVolume::find_ranges(const frame::FrameInputs& inputs) const {
   inputs.timer.time("ranges", [&] {
     const shaders::EpipolarBlock block = epipolar_block(inputs.view, grid_.resolution().alpha);
     grid_.block().write(&block, sizeof block);
@@ -22,8 +26,15 @@ void ShadowVolume::build(const frame::FrameInputs& inputs) const {
     const glm::uvec2 size = inputs.view.size;
     phi_range_.dispatch({size.x, (size.y + 31) / 32, 1}, {64, 1, 1});
   });
-  inputs.timer.time("populate", [&] { populate_.run(grid_, *inputs.shadow_map); });
-  inputs.timer.time("scan", [&] { scan_.run(grid_); });
+}
+
+void ShadowVolume::fill(const frame::FrameInputs& inputs) const {
+  if (populate_scan_) {
+    inputs.timer.time("populate_scan", [&] { populate_scan_->run(grid_, *inputs.shadow_map); });
+  } else {
+    inputs.timer.time("populate", [&] { populate_->run(grid_, *inputs.shadow_map); });
+    inputs.timer.time("scan", [&] { scan_->run(grid_); });
+  }
 }
 
 }  // namespace airlight::epipolar

@@ -5,6 +5,7 @@
 #include "epipolar/space.h"
 #include "media/medium.h"
 
+#include "spirv/media/phi_growth_comp.h"
 #include "spirv/media/vsv_riemann_comp.h"
 #include "spirv/media/vsv_table_build_comp.h"
 #include "spirv/media/vsv_table_comp.h"
@@ -17,8 +18,9 @@ constexpr std::uint32_t k_table_rows = 256;
 
 }  // namespace
 
-Vsv::Vsv(const gpu::Context& context, const epipolar::Resolution& resolution, VsvIntegral integral)
-    : volume_(context, resolution), integral_(integral), medium_block_(sizeof(shaders::MediumBlock)) {}
+Vsv::Vsv(const gpu::Context& context, const epipolar::Resolution& resolution, VsvIntegral integral,
+         epipolar::Scan scan, PhiCells phi_cells)
+    : volume_(context, resolution, scan), integral_(integral), phi_cells_(phi_cells), medium_block_(sizeof(shaders::MediumBlock)) {}
 
 void Vsv::load(const gpu::Context& context, const Variant& variant) {
   if (loaded_ == variant) return;
@@ -26,6 +28,7 @@ void Vsv::load(const gpu::Context& context, const Variant& variant) {
   const auto grid = epipolar::resolution_constants(resolution);
   const std::array<gpu::Constant, 6> constants = {grid[0], grid[1], grid[2], gpu::Constant(3, variant.phase),
                                                   gpu::Constant(4, variant.channels), gpu::Constant(5, k_table_rows)};
+  phi_growth_ = gpu::Program::compute(k_phi_growth_comp, std::array{grid[0], constants[3]});
   if (integral_ == VsvIntegral::table) {
     build_table_ = gpu::Program::compute(k_vsv_table_build_comp, constants);
     integrate_ = gpu::Program::compute(k_vsv_table_comp, constants);
@@ -38,22 +41,26 @@ void Vsv::load(const gpu::Context& context, const Variant& variant) {
 }
 
 void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) {
-  volume_.build(inputs);
-
   shaders::MediumBlock block = medium_block(inputs.view);
   const bool is_grey = block.sigma_t.x == block.sigma_t.y && block.sigma_t.y == block.sigma_t.z;
   load(inputs.context, {static_cast<std::uint32_t>(inputs.view.medium.phase), is_grey ? 1u : 3u});
-  inputs.timer.time("table", [&] {
+  volume_.find_ranges(inputs);
+  inputs.timer.time("ranges", [&] {
     const epipolar::Resolution& resolution = volume_.grid().resolution();
     const shaders::EpipolarBlock space = epipolar::epipolar_block(inputs.view, resolution.alpha);
     block.table_row_step =
         space.alpha_step * static_cast<float>(resolution.alpha) / static_cast<float>(k_table_rows - 1);
     medium_block_.write(&block, sizeof block);
     medium_block_.bind_uniform(2);
-    if (integral_ != VsvIntegral::table) return;
-    table_.bind_storage(6);
-    build_table_.dispatch({k_table_rows, 1, 1}, {8, 1, 1});
+    if (phi_cells_ == PhiCells::growing) phi_growth_.dispatch({1, 1, 1}, {1, 1, 1});
   });
+  volume_.fill(inputs);
+  if (integral_ == VsvIntegral::table) {
+    inputs.timer.time("table", [&] {
+      table_.bind_storage(6);
+      build_table_.dispatch({k_table_rows, 1, 1}, {8, 1, 1});
+    });
+  }
   inputs.timer.time("integrate", [&] {
     inputs.distance.bind_sampler(0);
     if (integral_ == VsvIntegral::table) table_texels_.bind_sampler(13);

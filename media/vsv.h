@@ -13,12 +13,19 @@ enum class VsvIntegral {
   riemann,  ///< the paper's sum over all samples (Eq. 5)
 };
 
+/// How the range of φ is cut into samples.
+enum class PhiCells {
+  growing,  ///< finer where more light comes from
+  equal,    ///< the paper's
+};
+
 /// `vsv`: airlight from an epipolar voxelized shadow volume.
 /// Based on: Wyman, "Voxelized Shadow Volumes", HPG 2011, sections 2 and 3.
 class Vsv : public frame::Airlight {
  public:
   /// @throws scene::Error as epipolar::Grid.
-  Vsv(const gpu::Context& context, const epipolar::Resolution& resolution, VsvIntegral integral);
+  Vsv(const gpu::Context& context, const epipolar::Resolution& resolution, VsvIntegral integral,
+      epipolar::Scan scan = epipolar::Scan::column, PhiCells phi_cells = PhiCells::growing);
 
   bool needs_shadow_map() const override { return true; }
   void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override;
@@ -36,11 +43,12 @@ class Vsv : public frame::Airlight {
 
   epipolar::ShadowVolume volume_;
   VsvIntegral integral_;
+  PhiCells phi_cells_;
   gpu::Buffer medium_block_;
   std::optional<Variant> loaded_;
   gpu::Buffer table_;
   gpu::TexelView table_texels_;
-  gpu::Program build_table_, integrate_;
+  gpu::Program phi_growth_, build_table_, integrate_;
 };
 
 }  // namespace airlight::media

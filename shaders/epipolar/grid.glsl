@@ -1,7 +1,7 @@
 // The voxel grid: which cell holds what, and where its bit is stored.
 //
-// N_α × N_θ × N_φ bits. Cells in θ are equal and cover (−π, π]; cells in α cover the frame's range of α; cells in φ cover
-// [0, φ_max]. A cell is represented by its centre. One 128-bit texel (uvec4) holds 128 consecutive φ at one (α, θ),
+// N_α × N_θ × N_φ bits. Cells in θ are equal and cover (−π, π]; cells in α are equal and cover the frame's range of α; cells
+// in φ cover [0, φ_max] and grow along it. A cell is represented by its centre. One 128-bit texel (uvec4) holds 128 consecutive φ at one (α, θ),
 // lowest bit first; the N_φ / 128 texels of a view ray are neighbours in memory, then the rays of one plane in order of α.
 #ifndef AIRLIGHT_GRID_GLSL
 #define AIRLIGHT_GRID_GLSL
@@ -29,6 +29,26 @@ FUNCTION uint alpha_cell(IN(EpipolarBlock) space, float alpha, uint alpha_count)
 FUNCTION uint first_shadowed_cell(IN(EpipolarBlock) space, float alpha, uint alpha_count) {
   float i = ceil((alpha - space.alpha_min) / space.alpha_step - 0.5f);
   return uint(clamp(i, 0.0f, float(alpha_count)));
+}
+
+// How [0, φ_max] is cut into cells: at x ∈ [0, 1] of the way through the cells lies φ = φ_max x (1 + c x) / (1 + c). The last
+// cells are 1 + 2c times as wide as the first; c = 0 cuts equally, as the paper does.
+struct PhiCells {
+  float phi_max;  // [rad]
+  float growth;   // c ≥ 0
+  float count;    // N_φ
+};
+
+// φ at `cell` cells from 0; boundaries lie at whole numbers, centres half-way.
+FUNCTION float phi_of_cell(IN(PhiCells) cells, float cell) {
+  float x = cell / cells.count;
+  return cells.phi_max * x * (1.0f + cells.growth * x) / (1.0f + cells.growth);
+}
+
+// Inverse of phi_of_cell.
+FUNCTION float cell_of_phi(IN(PhiCells) cells, float phi) {
+  float q = (1.0f + cells.growth) * phi / cells.phi_max;
+  return cells.count * 2.0f * q / (1.0f + sqrt(1.0f + 4.0f * cells.growth * q));
 }
 
 // Index of a 32-bit word of the grid: 32 consecutive φ from 32·word.

@@ -10,7 +10,10 @@ layout(std140, binding = 0) uniform ViewUniform { ViewBlock view; };
 layout(std140, binding = 1) uniform EpipolarUniform { EpipolarBlock space; };
 layout(binding = 0) uniform sampler2D distance_image;
 // angle_order of φ_max; floats ≥ 0 sort like their bits
-layout(std430, binding = 4) buffer PhiRange { uint largest_order; };
+layout(std430, binding = 4) buffer PhiRange {
+  uint largest_order;
+  float phi_growth;
+};
 
 const uint k_rows = 32u;
 

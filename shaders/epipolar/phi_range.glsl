@@ -1,4 +1,9 @@
-// Width of a cell in φ, from the range that phi_range.comp found. GLSL only; needs resolution.glsl and space.glsl.
-layout(std430, binding = 4) readonly buffer PhiRange { uint largest_order; };
+// The cells in φ of this frame. GLSL only; needs resolution.glsl and grid.glsl.
+layout(std430, binding = 4) readonly buffer PhiRange {
+  uint largest_order;  // angle_order of φ_max, from phi_range.comp
+  float phi_growth;    // PhiCells.growth
+};
 
-float phi_step() { return angle_from_order(uintBitsToFloat(largest_order)) / float(k_phi_count); }
+PhiCells phi_cells() {
+  return PhiCells(angle_from_order(uintBitsToFloat(largest_order)), phi_growth, float(k_phi_count));
+}

@@ -5,14 +5,12 @@
 #include "epipolar/grid.glsl"
 #include "epipolar/resolution.glsl"
 #include "epipolar/phi_range.glsl"
+#include "epipolar/light_ray_occluder.glsl"
 
 // For each light ray (θ_j, φ_k): the nearest occluder of the shadow map, at α_d, sets the bit of the first cell in its
 // shadow (section 4.1.3). An invocation owns 32 neighbouring φ of one plane, and with them the words that it writes, so no
 // atomics are needed. The grid must be clear.
 layout(local_size_x = 16, local_size_y = 4) in;
-layout(std140, binding = 0) uniform ViewUniform { ViewBlock view; };
-layout(std140, binding = 1) uniform EpipolarUniform { EpipolarBlock space; };
-layout(binding = 0) uniform sampler2DArray shadow_map;
 layout(std430, binding = 5) buffer Grid { uint grid[]; };
 
 void main() {
@@ -22,19 +20,9 @@ void main() {
 
   float theta = theta_centre(j, k_theta_count);
   vec3 outward = cos(theta) * space.u + sin(theta) * space.f;
-  float step = phi_step();
+  PhiCells cells = phi_cells();
   for (uint bit = 0u; bit < 32u; ++bit) {
-    float phi = (float(32u * word + bit) + 0.5) * step;
-    float sin_phi = sin(phi);
-    float cos_phi = cos(phi);
-    CubePoint point = cube_point(sin_phi * outward - cos_phi * space.axis);
-    float depth = texelFetch(shadow_map, ivec3(cube_texel(point.uv, view.shadow_map_size), point.face), 0).r;
-    if (depth > 0.0) {
-      float r = view.light_near / (depth * point.depth);  // along the unit light ray
-      uint first = first_shadowed_cell(space, alpha_at(space, sin_phi, cos_phi, r), k_alpha_count);
-      if (first < k_alpha_count) {
-        grid[grid_word(first, j, word, k_alpha_count, k_words_per_ray)] |= 1u << bit;
-      }
-    }
+    uint first = first_shadowed_on(outward, phi_of_cell(cells, float(32u * word + bit) + 0.5));
+    if (first < k_alpha_count) grid[grid_word(first, j, word, k_alpha_count, k_words_per_ray)] |= 1u << bit;
   }
 }

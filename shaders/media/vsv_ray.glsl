@@ -19,8 +19,9 @@ struct VsvRay {
   float alpha;
   float complement;  // π − α
   float phi_end;     // where the ray ends
-  float phi_step;
-  uint last_cell;    // the cell in φ where it ends
+  PhiCells cells;
+  float end;         // where it ends, in cells of φ
+  uint last_cell;    // the cell that holds its end
   int texel;         // the first texel of its row of bits
   bool is_open;      // meets no surface
 };
@@ -34,8 +35,9 @@ VsvRay vsv_ray(ivec2 pixel) {
   float t = texelFetch(distance_image, pixel, 0).r;
   ray.is_open = t == 0.0;
   ray.phi_end = ray.is_open ? ray.complement : phi_at(space, ray.angle, t);
-  ray.phi_step = phi_step();
-  ray.last_cell = uint(clamp(floor(ray.phi_end / ray.phi_step), 0.0, float(k_phi_count) - 1.0));
+  ray.cells = phi_cells();
+  ray.end = cell_of_phi(ray.cells, ray.phi_end);
+  ray.last_cell = uint(clamp(floor(ray.end), 0.0, float(k_phi_count) - 1.0));
   uint i = alpha_cell(space, ray.alpha, k_alpha_count);
   uint j = theta_cell(theta_of(space, direction), k_theta_count);
   ray.texel = int((j * k_alpha_count + i) * k_texels_per_ray);

@@ -20,10 +20,11 @@ void main() {
     while (lit != 0u) {
       uint k = 32u * word + uint(findLSB(lit));
       lit &= lit - 1u;
-      float phi = (float(k) + 0.5) * ray.phi_step;
-      if (phi < ray.phi_end) sum += airlight_integrand(space, medium, k_phase, ray.complement, phi);
+      float phi = phi_of_cell(ray.cells, float(k) + 0.5);
+      float width = phi_of_cell(ray.cells, float(k + 1u)) - phi_of_cell(ray.cells, float(k));
+      if (phi < ray.phi_end) sum += width * airlight_integrand(space, medium, k_phase, ray.complement, phi);
     }
   }
-  vec3 radiance = airlight_scale(space, medium, ray.angle.sine) * ray.phi_step * sum;
+  vec3 radiance = airlight_scale(space, medium, ray.angle.sine) * sum;
   imageStore(airlight_image, pixel, vec4(radiance, 1.0));
 }

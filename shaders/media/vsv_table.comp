@@ -34,8 +34,8 @@ void main() {
     uint shadow = texelFetch(grid_texels, ray.texel).x;
     for (uint k = 0u; k <= ray.last_cell; ++k) {
       if ((shadow >> k & 1u) != 0u) continue;
-      float from = float(k) * ray.phi_step;
-      float to = min(from + ray.phi_step, ray.phi_end);
+      float from = phi_of_cell(ray.cells, float(k));
+      float to = min(phi_of_cell(ray.cells, float(k + 1u)), ray.phi_end);
       if (to > from) integral += integrate_cell(space, medium, k_phase, ray.complement, from, to);
     }
   } else {
@@ -59,7 +59,7 @@ void main() {
     // The ray ends in light: close the last lit run.
     if (sign > 0.0) {
       uint entry = row_start + ray.last_cell * k_channels;
-      float within = ray.is_open ? 1.0 : clamp(ray.phi_end / ray.phi_step - float(ray.last_cell), 0.0, 1.0);
+      float within = ray.is_open ? 1.0 : clamp(ray.end - float(ray.last_cell), 0.0, 1.0);
       for (uint channel = 0u; channel < k_channels; ++channel) {
         sum[channel] += mix(texelFetch(table, int(entry + channel)).xy,
                             texelFetch(table, int(entry + k_channels + channel)).xy, within);

@@ -17,7 +17,7 @@ void main() {
   uint row = gl_GlobalInvocationID.x;
   if (row >= k_table_rows) return;
   float complement = k_pi - (space.alpha_min + float(row) * medium.table_row_step);
-  float step = phi_step();
+  PhiCells cells = phi_cells();
   vec3 sum = vec3(0.0);
   for (uint k = 0u; k <= k_phi_count; ++k) {
     for (uint channel = 0u; channel < k_channels; ++channel) {
@@ -25,8 +25,8 @@ void main() {
       table[at] = sum[channel];                                                          // this row
       if (row > 0u) table[at - 2u * table_index(1u, 0u, 0u) + 1u] = sum[channel];  // its upper neighbour's next row
     }
-    float from = float(k) * step;
-    float to = min(from + step, complement);
+    float from = phi_of_cell(cells, float(k));
+    float to = min(phi_of_cell(cells, float(k + 1u)), complement);
     if (to > from) sum += integrate_cell(space, medium, k_phase, complement, from, to);
   }
 }
