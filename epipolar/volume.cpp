@@ -22,7 +22,7 @@ void ShadowVolume::find_ranges(const frame::FrameInputs& inputs) const {
     grid_.block().write(&block, sizeof block);
     grid_.phi_range().clear();
     grid_.bind();
-    inputs.distance.bind_sampler(0);
+    inputs.surfaces.bind_sampler(0);
     const glm::uvec2 size = inputs.view.size;
     phi_range_.dispatch({size.x, (size.y + 31) / 32, 1}, {64, 1, 1});
   });

@@ -119,14 +119,14 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
     timer.time("shadow_map", [&] { shadow_map_->draw(scene_, view.light.position); });
   }
   const FrameInputs inputs{.context = context_, .view = view, .scene = scene_, .triangles = gbuffer_->triangles(),
-                           .distance = gbuffer_->distance(), .shadow_map = needs_shadow_map ? &*shadow_map_ : nullptr,
+                           .surfaces = gbuffer_->surfaces(), .shadow_map = needs_shadow_map ? &*shadow_map_ : nullptr,
                            .timer = timer};
   timer.time("surface_query", [&] { surface_shadow.query(inputs, visibility_); });
   airlight.integrate(inputs, airlight_);  // times its own stages
   timer.time("composite", [&] {
     scene_.bind_samplers();
     gbuffer_->triangles().bind_sampler(0);
-    gbuffer_->distance().bind_sampler(1);
+    gbuffer_->surfaces().bind_sampler(1);
     visibility_.bind_sampler(2);
     airlight_.bind_sampler(3);
     radiance_.bind_image(0);
@@ -140,7 +140,7 @@ FrameImages Frame::read() const {
   images.size = radiance_.size();
   images.radiance = read_rgb(radiance_, "radiance");
   images.airlight = read_rgb(airlight_, "airlight");
-  images.distance = gbuffer_->distance().read<float>();
+  for (const glm::vec4& surface : gbuffer_->surfaces().read<glm::vec4>()) images.distance.push_back(surface.w);
   images.visibility = visibility_.read<float>();
   for (std::size_t i = 0; i < images.visibility.size(); ++i) {
     if (images.distance[i] == 0.0f) images.visibility[i] = 0.0f;

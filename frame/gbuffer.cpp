@@ -2,17 +2,17 @@
 
 #include "spirv/frame/gbuffer_frag.h"
 #include "spirv/frame/gbuffer_vert.h"
-#include "spirv/frame/surface_distance_comp.h"
+#include "spirv/frame/surfaces_comp.h"
 
 namespace airlight::frame {
 
 GBuffer::GBuffer(glm::ivec2 size)
     : triangles_(gpu::Format::r32ui, size),
-      distance_(gpu::Format::r32f, size),
+      surfaces_(gpu::Format::rgba32f, size),
       depth_(gpu::Format::depth32f, size),
       framebuffer_(&triangles_, depth_, 0),
       draw_(gpu::Program::graphics(k_gbuffer_vert, k_gbuffer_frag)),
-      surface_distance_(gpu::Program::compute(k_surface_distance_comp)) {}
+      resolve_(gpu::Program::compute(k_surfaces_comp)) {}
 
 void GBuffer::draw(const SceneBuffers& scene, const scene::CameraFrame& camera) const {
   framebuffer_.begin();
@@ -21,8 +21,8 @@ void GBuffer::draw(const SceneBuffers& scene, const scene::CameraFrame& camera) 
               .half_width = camera.half_width, .half_height = camera.half_height});
   scene.bind_samplers();
   triangles_.bind_sampler(0);
-  distance_.bind_image(0);
-  surface_distance_.dispatch({triangles_.size(), 1}, {8, 8, 1});
+  surfaces_.bind_image(0);
+  resolve_.dispatch({triangles_.size(), 1}, {8, 8, 1});
 }
 
 }  // namespace airlight::frame

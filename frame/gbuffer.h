@@ -6,7 +6,7 @@
 
 namespace airlight::frame {
 
-/// What each view ray hits first: the triangle and its distance. Normal and material follow from the triangle.
+/// What each view ray hits first: the triangle, its normal and distance. The material follows from the triangle.
 class GBuffer {
  public:
   explicit GBuffer(glm::ivec2 size);
@@ -15,12 +15,14 @@ class GBuffer {
   void draw(const SceneBuffers& scene, const scene::CameraFrame& camera) const;
 
   const gpu::Texture& triangles() const { return triangles_; }  ///< r32ui: number + 1, 0 for none
-  const gpu::Texture& distance() const { return distance_; }    ///< r32f: along the unit view ray [m], 0 for none
+
+  /// rgba32f: unit normal towards the eye, world axes; distance along the unit view ray [m]. All 0 for none.
+  const gpu::Texture& surfaces() const { return surfaces_; }
 
  private:
-  gpu::Texture triangles_, distance_, depth_;
+  gpu::Texture triangles_, surfaces_, depth_;
   gpu::Framebuffer framebuffer_;
-  gpu::Program draw_, surface_distance_;
+  gpu::Program draw_, resolve_;
 };
 
 }  // namespace airlight::frame

@@ -21,7 +21,7 @@ struct FrameInputs {
   const scene::View& view;
   const SceneBuffers& scene;
   const gpu::Texture& triangles;  ///< r32ui: number of the triangle seen + 1, 0 for none
-  const gpu::Texture& distance;   ///< r32f: along the unit view ray [m], 0 for none
+  const gpu::Texture& surfaces;   ///< rgba32f: unit normal towards the eye, distance along the unit view ray [m]; 0 for none
   const ShadowMap* shadow_map;    ///< nullptr unless a method needs it
   gpu::StageTimer& timer;
 };

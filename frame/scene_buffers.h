@@ -14,7 +14,7 @@ class SceneBuffers {
   /// @throws scene::Error (driver) when a buffer would be larger than the driver allows.
   SceneBuffers(const gpu::Context& context, const scene::Geometry& geometry);
 
-  /// Binds what shaders/frame/triangles.glsl and the composite read: samplers 8 to 11.
+  /// Binds positions, triangles, albedos and materials to samplers 8 to 11.
   void bind_samplers() const;
 
   /// Draws what may lie in the pyramid. Vertex attributes: 0 = world position, 1 = first triangle of the draw.

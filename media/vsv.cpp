@@ -62,7 +62,7 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
     });
   }
   inputs.timer.time("integrate", [&] {
-    inputs.distance.bind_sampler(0);
+    inputs.surfaces.bind_sampler(0);
     if (integral_ == VsvIntegral::table) table_texels_.bind_sampler(13);
     radiance.bind_image(0);
     integrate_.dispatch({inputs.view.size, 1}, {8, 8, 1});

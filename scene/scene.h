@@ -9,6 +9,9 @@
 
 namespace airlight::scene {
 
+/// Squared distances between points within this range of the origin stay far inside single precision.
+inline constexpr double k_largest_coordinate = 1e18;  // [m]
+
 /// A Lambert surface.
 struct Material {
   glm::vec3 albedo{0.8f};  ///< diffuse reflectance, linear RGB in [0, 1]

@@ -1,6 +1,5 @@
 #include "surface_shadows/shadow_map_lookup.h"
 
-#include "frame/scene_buffers.h"
 #include "frame/shadow_map.h"
 
 #include "spirv/surface_shadows/shadow_map_lookup_comp.h"
@@ -10,10 +9,8 @@ namespace airlight::surface_shadows {
 ShadowMapLookup::ShadowMapLookup() : program_(gpu::Program::compute(k_shadow_map_lookup_comp)) {}
 
 void ShadowMapLookup::query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) {
-  inputs.scene.bind_samplers();
-  inputs.triangles.bind_sampler(0);
-  inputs.distance.bind_sampler(1);
-  inputs.shadow_map->depth().bind_sampler(2);
+  inputs.surfaces.bind_sampler(0);
+  inputs.shadow_map->depth().bind_sampler(1);
   visibility.bind_image(0);
   program_.dispatch({inputs.view.size, 1}, {8, 8, 1});
 }

@@ -8,7 +8,7 @@
 layout(local_size_x = 64) in;
 layout(std140, binding = 0) uniform ViewUniform { ViewBlock view; };
 layout(std140, binding = 1) uniform EpipolarUniform { EpipolarBlock space; };
-layout(binding = 0) uniform sampler2D distance_image;
+layout(binding = 0) uniform sampler2D surface_image;
 // angle_order of φ_max; floats ≥ 0 sort like their bits
 layout(std430, binding = 4) buffer PhiRange {
   uint largest_order;
@@ -26,7 +26,7 @@ void main() {
   for (uint y = gl_GlobalInvocationID.y * k_rows; y < end; ++y) {
     vec2 pixel = vec2(x, y);
     EyeAngle angle = eye_angle(space, view_ray(view, pixel + 0.5), quarter_pixel(view));
-    float t = texelFetch(distance_image, ivec2(pixel), 0).r;
+    float t = texelFetch(surface_image, ivec2(pixel), 0).w;
     float order = t > 0.0 ? angle_order(t * angle.sine, space.distance - t * angle.cosine)
                           : angle_order(angle.sine, -angle.cosine);  // φ = π − α where nothing is hit
     largest = max(largest, order);

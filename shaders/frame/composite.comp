@@ -1,12 +1,11 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "frame/view.glsl"
-#include "frame/triangles.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, binding = 0) uniform ViewUniform { ViewBlock view; };
 layout(binding = 0) uniform usampler2D triangle_plus_one;
-layout(binding = 1) uniform sampler2D distance_image;
+layout(binding = 1) uniform sampler2D surface_image;
 layout(binding = 2) uniform sampler2D visibility_image;
 layout(binding = 3) uniform sampler2D airlight_image;
 layout(binding = 10) uniform samplerBuffer albedos;
@@ -23,15 +22,11 @@ void main() {
   uint seen = texelFetch(triangle_plus_one, pixel, 0).r;
   float visibility = texelFetch(visibility_image, pixel, 0).r;
   if (seen != 0u && visibility > 0.0) {
-    vec3 a, b, c;
-    triangle_corners(view, seen - 1u, a, b, c);
-    vec3 normal = normalize(cross(b - a, c - a));
-    vec3 ray = view_ray(view, vec2(pixel) + 0.5);
-    float distance = texelFetch(distance_image, pixel, 0).r;
-    vec3 to_light = view.light - distance * ray;
+    vec4 surface = texelFetch(surface_image, pixel, 0);
+    float distance = surface.w;
+    vec3 to_light = view.light - distance * view_ray(view, vec2(pixel) + 0.5);
     float r = length(to_light);
-    // The surface has two sides; only the one that faces the eye is seen.
-    float cosine = dot(normal, to_light) * (dot(normal, ray) > 0.0 ? -1.0 : 1.0) / max(r, 1e-30);
+    float cosine = dot(surface.xyz, to_light) / max(r, 1e-30);
     vec3 albedo = texelFetch(albedos, int(texelFetch(material_of_triangle, int(seen) - 1).r)).rgb;
     radiance += visibility * max(cosine, 0.0) * albedo / k_pi * view.intensity / max(r * r, 1e-30) *
                 exp(-view.sigma_t * (r + distance));

@@ -10,9 +10,12 @@ layout(constant_id = 3) const uint k_phase = 0;
 layout(std140, binding = 0) uniform ViewUniform { ViewBlock view; };
 layout(std140, binding = 1) uniform EpipolarUniform { EpipolarBlock space; };
 layout(std140, binding = 2) uniform MediumUniform { MediumBlock medium; };
-layout(binding = 0) uniform sampler2D distance_image;
+layout(binding = 0) uniform sampler2D surface_image;
 layout(binding = 12) uniform usamplerBuffer grid_texels;
 layout(binding = 0, rgba32f) uniform writeonly image2D airlight_image;
+
+// How far before the plane, in cells of φ, a bit has to lie to be trusted: the shadow map places the surface by its texels.
+const float k_plane_slack = 0.25;
 
 struct VsvRay {
   EyeAngle angle;
@@ -20,8 +23,10 @@ struct VsvRay {
   float complement;  // π − α
   float phi_end;     // where the ray ends
   PhiCells cells;
-  float end;         // where it ends, in cells of φ
+  float end;         // where the ray ends, in cells of φ
   uint last_cell;    // the cell that holds its end
+  int last_valid;    // the last cell whose bit says something about this ray; −1 for none
+  uint unknown;      // all bits set or none: what cells hold where none is valid
   int texel;         // the first texel of its row of bits
   bool is_open;      // meets no surface
 };
@@ -32,17 +37,49 @@ VsvRay vsv_ray(ivec2 pixel) {
   ray.angle = eye_angle(space, direction, quarter_pixel(view));
   ray.alpha = alpha_of(ray.angle);
   ray.complement = alpha_complement(ray.angle);
-  float t = texelFetch(distance_image, pixel, 0).r;
-  ray.is_open = t == 0.0;
-  ray.phi_end = ray.is_open ? ray.complement : phi_at(space, ray.angle, t);
+  vec4 surface = texelFetch(surface_image, pixel, 0);
+  ray.is_open = surface.w == 0.0;
+  ray.phi_end = ray.is_open ? ray.complement : phi_at(space, ray.angle, surface.w);
   ray.cells = phi_cells();
   ray.end = cell_of_phi(ray.cells, ray.phi_end);
   ray.last_cell = uint(clamp(floor(ray.end), 0.0, float(k_phi_count) - 1.0));
   uint i = alpha_cell(space, ray.alpha, k_alpha_count);
   uint j = theta_cell(theta_of(space, direction), k_theta_count);
   ray.texel = int((j * k_alpha_count + i) * k_texels_per_ray);
+
+  // The bits are those of the row's own ray, at the centre of its cell. Where that ray meets the surface's plane before this one
+  // ends, its later bits tell of the other side of the surface: beyond a wall between eye and light they are lit, and as
+  // 1/sin α grows a leak would circle the epipole.
+  ray.last_valid = int(ray.last_cell);
+  ray.unknown = 0u;
+  if (!ray.is_open) {
+    float alpha = space.alpha_min + (float(i) + 0.5) * space.alpha_step;
+    vec3 row_direction = view_ray_of(space, alpha, theta_centre(j, k_theta_count));
+    float distance = surface.w * dot(surface.xyz, direction);  // of the plane from the eye
+    float row_facing = dot(surface.xyz, row_direction);
+    if (row_facing < 0.0) {
+      EyeAngle row_angle = EyeAngle(sin(alpha), cos(alpha));
+      float row_end = cell_of_phi(ray.cells, phi_at(space, row_angle, distance / row_facing));
+      ray.last_valid = min(ray.last_valid, int(ceil(row_end - 0.5 - k_plane_slack)) - 1);
+    }
+    bool faces_light = dot(surface.xyz, view.light) > distance;
+    ray.unknown = faces_light ? 0u : 0xffffffffu;
+  }
   return ray;
 }
 
 // Bits 0 to `count` − 1 of a word.
 uint low_bits(uint count) { return count >= 32u ? 0xffffffffu : (1u << count) - 1u; }
+
+// The bits of a word as this ray sees them: from the last valid cell on, all are like it. `before` carries the
+// preceding word's highest bit, in every place; start it with ray.unknown.
+uint seen_bits(VsvRay ray, uint bits, uint word, inout uint before) {
+  int valid = ray.last_valid - int(32u * word);  // the last valid bit of this word
+  if (valid < 31) {
+    uint keep = valid < 0 ? 0u : low_bits(uint(valid) + 1u);
+    uint fill = valid < 0 ? before : 0u - (bits >> uint(valid) & 1u);
+    bits = (bits & keep) | (fill & ~keep);
+  }
+  before = 0u - (bits >> 31);
+  return bits;
+}

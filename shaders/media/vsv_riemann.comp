@@ -12,9 +12,10 @@ void main() {
   VsvRay ray = vsv_ray(pixel);
   vec3 sum = vec3(0.0);
   uvec4 words;
+  uint before = ray.unknown;
   for (uint word = 0u; word <= ray.last_cell >> 5; ++word) {
     if ((word & 3u) == 0u) words = texelFetch(grid_texels, ray.texel + int(word >> 2));
-    uint lit = ~words.x;
+    uint lit = ~seen_bits(ray, words.x, word, before);
     words.xyz = words.yzw;
     if (word == ray.last_cell >> 5) lit &= low_bits((ray.last_cell & 31u) + 1u);
     while (lit != 0u) {

@@ -31,7 +31,8 @@ void main() {
 
   vec3 integral = vec3(0.0);
   if (ray.last_cell < k_direct_cells) {
-    uint shadow = texelFetch(grid_texels, ray.texel).x;
+    uint before = ray.unknown;
+    uint shadow = seen_bits(ray, texelFetch(grid_texels, ray.texel).x, 0u, before);
     for (uint k = 0u; k <= ray.last_cell; ++k) {
       if ((shadow >> k & 1u) != 0u) continue;
       float from = phi_of_cell(ray.cells, float(k));
@@ -44,15 +45,16 @@ void main() {
     float blend = row - floor(row);
     vec2 sum[3] = vec2[3](vec2(0.0), vec2(0.0), vec2(0.0));
     float sign = 1.0;  // + where light ends, − where it begins
-    uint before = 0u;  // the bit before a word's first; what lies before the first word counts as lit
+    uint before = ray.unknown;  // the highest bit of the word before, in every place
+    uint carry = 0u;            // the same as a bit; what lies before the first word counts as lit
     uint last_word = ray.last_cell >> 5;
     uvec4 words;
     for (uint word = 0u; word <= last_word; ++word) {
       if ((word & 3u) == 0u) words = texelFetch(grid_texels, ray.texel + int(word >> 2));
-      uint shadow = words.x;
+      uint shadow = seen_bits(ray, words.x, word, before);
       words.xyz = words.yzw;
-      uint changes = shadow ^ (shadow << 1 | before);
-      before = shadow >> 31;
+      uint changes = shadow ^ (shadow << 1 | carry);
+      carry = shadow >> 31;
       if (word == last_word) changes &= low_bits((ray.last_cell & 31u) + 1u);
       add_changes(changes, 32u * word, row_start, sign, sum);
     }

@@ -2,13 +2,11 @@
 #extension GL_GOOGLE_include_directive : require
 #include "frame/view.glsl"
 #include "frame/shadow_cube.glsl"
-#include "frame/triangles.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, binding = 0) uniform ViewUniform { ViewBlock view; };
-layout(binding = 0) uniform usampler2D triangle_plus_one;
-layout(binding = 1) uniform sampler2D distance_image;
-layout(binding = 2) uniform sampler2DArray shadow_map;
+layout(binding = 0) uniform sampler2D surface_image;
+layout(binding = 1) uniform sampler2DArray shadow_map;
 layout(binding = 0, r32f) uniform writeonly image2D visibility_image;
 
 // Relative slack of the depth test: what rasterisation to 1/256 texel and single precision leave.
@@ -19,19 +17,15 @@ const float k_slack = 1e-4;
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(vec2(pixel), vec2(view.image_width, view.image_height)))) return;
-  uint seen = texelFetch(triangle_plus_one, pixel, 0).r;
+  vec4 surface = texelFetch(surface_image, pixel, 0);
   float visibility = 0.0;
-  if (seen != 0u) {
-    vec3 a, b, c;
-    triangle_corners(view, seen - 1u, a, b, c);
-    vec3 from_light = texelFetch(distance_image, pixel, 0).r * view_ray(view, vec2(pixel) + 0.5) - view.light;
+  if (surface.w > 0.0) {
+    vec3 from_light = surface.w * view_ray(view, vec2(pixel) + 0.5) - view.light;
     CubePoint point = cube_point(from_light);
     ivec2 texel = cube_texel(point.uv, view.shadow_map_size);
     float depth = texelFetch(shadow_map, ivec3(texel, point.face), 0).r;
     vec3 centre = cube_direction(point.face, cube_texel_centre(texel, view.shadow_map_size));
-    vec3 normal = cross(b - a, c - a);
-    float facing = dot(normal, centre);
-    float plane_depth = dot(normal, from_light) / facing;
+    float plane_depth = dot(surface.xyz, from_light) / dot(surface.xyz, centre);
     // A surface seen edge-on from the light has no depth at the texel's centre: its own has to do.
     float receiver = plane_depth > 0.5 * point.depth && plane_depth < 2.0 * point.depth ? plane_depth : point.depth;
     visibility = depth == 0.0 || receiver * depth <= view.light_near * (1.0 + k_slack) ? 1.0 : 0.0;

@@ -1,0 +1,125 @@
+#include "scene/import.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cctype>
+#include <cmath>
+#include <fstream>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "scene/import_internal.h"
+
+namespace airlight::scene {
+namespace {
+
+bool has_area(const RawGeometry& raw, glm::uvec3 triangle) {
+  // In single precision, as every method will see them: corners can coincide after rounding. The differences
+  // of floats and the products of those lose nothing that matters in double, so thin triangles stay.
+  const glm::dvec3 a(glm::vec3(raw.positions[triangle.x]));
+  const glm::dvec3 b(glm::vec3(raw.positions[triangle.y]));
+  const glm::dvec3 c(glm::vec3(raw.positions[triangle.z]));
+  return glm::cross(b - a, c - a) != glm::dvec3(0.0);
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+  constexpr std::size_t k_longest = 200;
+  std::string result(text.substr(0, k_longest));
+  for (char& c : result)
+    if (std::iscntrl(static_cast<unsigned char>(c))) c = ' ';
+  if (text.size() > k_longest) result += "...";
+  while (!result.empty() && result.back() == ' ') result.pop_back();
+  return result;
+}
+
+Error file_error(const std::filesystem::path& file, const std::string& place, const std::string& problem,
+                 const std::string& remedy) {
+  const std::string name = printable(file.string());
+  return Error(ExitCode::bad_file, place.empty() ? name : name + ", " + place, problem, remedy);
+}
+
+std::string read_file(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) throw file_error(file, "", "there is no such file");
+  if (!std::filesystem::is_regular_file(status)) throw file_error(file, "", "it is not a file");
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (!error && size == 0) throw file_error(file, "", "the file is empty");
+
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes(error ? 0 : size, '\0');
+  if (error || !stream.read(bytes.data(), static_cast<std::streamsize>(size)))
+    throw file_error(file, "", "the file cannot be read");
+  return bytes;
+}
+
+glm::vec3 albedo(const std::filesystem::path& file, const std::string& place, glm::dvec3 value) {
+  for (int channel = 0; channel < 3; ++channel)
+    if (!(value[channel] >= 0.0 && value[channel] <= 1.0))
+      throw file_error(file, place,
+                       fmt::format("a base colour of {:g} is not between 0 and 1", value[channel]));
+  return glm::vec3(value);
+}
+
+Geometry clean(const std::filesystem::path& file, RawGeometry raw, ImportReport& report) {
+  // Every position is finite, and so are the squares of their distances.
+  double reach = 0.0;
+  for (std::size_t i = 0; i < raw.positions.size(); ++i) {
+    const glm::dvec3 p = raw.positions[i];
+    if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)))
+      throw file_error(file, raw.place_of_vertex(i), "the position is not finite");
+    reach = std::max({reach, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  }
+  if (reach > k_largest_coordinate)
+    throw file_error(
+        file, "",
+        fmt::format("the extent of the geometry overflows single precision: it reaches {:g} m from "
+                    "the origin, the limit is {:g} m",
+                    reach, k_largest_coordinate),
+        "scale the model down");
+
+  // Triangles that have an area.
+  Geometry geometry;
+  geometry.triangles.reserve(raw.triangles.size());
+  geometry.material_of_triangle.reserve(raw.triangles.size());
+  for (std::size_t i = 0; i < raw.triangles.size(); ++i) {
+    assert(raw.material_of_triangle[i] < raw.materials.size());
+    if (!has_area(raw, raw.triangles[i])) continue;
+    geometry.triangles.push_back(raw.triangles[i]);
+    geometry.material_of_triangle.push_back(raw.material_of_triangle[i]);
+  }
+  report.degenerate_triangles = raw.triangles.size() - geometry.triangles.size();
+  if (geometry.triangles.empty()) report.warnings.push_back("the file has no triangles");
+
+  geometry.positions.assign(raw.positions.begin(), raw.positions.end());
+  geometry.materials = std::move(raw.materials);
+  return geometry;
+}
+
+Scene import_scene(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const bool gltf = extension == ".gltf" || extension == ".glb";
+  if (!gltf && extension != ".obj")
+    throw file_error(file, "",
+                     extension.empty() ? "a file without an extension cannot be read"
+                                       : fmt::format("{} files cannot be read", printable(extension)),
+                     "give a .gltf, .glb or .obj file");
+
+  try {
+    Scene scene = gltf ? import_gltf(file) : import_obj(file);
+    scene.name = file.stem().string();
+    return scene;
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& error) {
+    // The parsing libraries throw for some broken files; running out of memory is bad input, too.
+    throw file_error(file, "", printable(error.what()));
+  }
+}
+
+}  // namespace airlight::scene

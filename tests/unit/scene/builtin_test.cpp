@@ -1,0 +1,222 @@
+#include "scene/builtin.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace airlight::scene {
+namespace {
+
+using testing::ElementsAre;
+
+/// Whether any triangle cuts the open segment. Every triangle is tried: slow, and without a way to be wrong
+/// cleverly.
+bool is_blocked(const Geometry& geometry, glm::dvec3 from, glm::dvec3 to) {
+  const glm::dvec3 d = to - from;
+  for (glm::uvec3 triangle : geometry.triangles) {
+    // Möller and Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997.
+    const glm::dvec3 a = geometry.positions[triangle.x];
+    const glm::dvec3 e1 = glm::dvec3(geometry.positions[triangle.y]) - a;
+    const glm::dvec3 e2 = glm::dvec3(geometry.positions[triangle.z]) - a;
+    const glm::dvec3 p = glm::cross(d, e2);
+    const double determinant = glm::dot(e1, p);
+    if (determinant == 0.0) continue;
+    const glm::dvec3 s = (from - a) / determinant, q = glm::cross(s, e1);
+    const double u = glm::dot(s, p), v = glm::dot(d, q), t = glm::dot(e2, q);
+    if (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 && t < 1.0) return true;
+  }
+  return false;
+}
+
+/// The number of edges that are not shared by exactly two triangles which run along them in opposite
+/// directions.
+std::size_t open_edges(const Geometry& geometry) {
+  std::map<std::pair<glm::uint, glm::uint>, int> count;
+  for (glm::uvec3 t : geometry.triangles)
+    for (int i = 0; i < 3; ++i) ++count[{t[i], t[(i + 1) % 3]}];
+  std::size_t open = 0;
+  for (const auto& [edge, number] : count) {
+    const auto back = count.find({edge.second, edge.first});
+    open += number != 1 || back == count.end() || back->second != 1;
+  }
+  return open;
+}
+
+/// Six times the volume that the triangles enclose; positive when they face outwards.
+double signed_volume(const Geometry& geometry) {
+  double volume = 0.0;
+  for (glm::uvec3 t : geometry.triangles)
+    volume += glm::dot(glm::dvec3(geometry.positions[t.x]),
+                       glm::cross(glm::dvec3(geometry.positions[t.y]), glm::dvec3(geometry.positions[t.z])));
+  return volume;
+}
+
+TEST(Builtin, NamesAreKnownAndTheWindowIsTheDefault) {
+  std::vector<std::string> names;
+  for (const BuiltinScene& scene : builtin_scenes()) names.emplace_back(scene.name);
+  EXPECT_THAT(names, ElementsAre("window", "cornell", "empty", "half-space", "sphere"));
+  for (const std::string& name : names) {
+    ASSERT_NE(find_builtin(name), nullptr);
+    EXPECT_EQ(find_builtin(name)->name, name);
+  }
+  EXPECT_EQ(find_builtin("Window"), nullptr);
+  EXPECT_EQ(find_builtin(""), nullptr);
+}
+
+class EachBuiltin : public testing::TestWithParam<std::string> {};
+
+TEST_P(EachBuiltin, IsCompleteAndKeepsTheContractOfGeometry) {
+  const BuiltinScene* builtin = find_builtin(GetParam());
+  ASSERT_NE(builtin, nullptr);
+  EXPECT_FALSE(builtin->description.empty());
+  EXPECT_EQ(builtin->description.find('\n'), std::string_view::npos);
+
+  const Scene scene = builtin->make();
+  EXPECT_EQ(scene.name, GetParam());
+  EXPECT_GT(scene.exposure, 0.0f);
+  ASSERT_EQ(scene.cameras.size(), 1u);
+  ASSERT_EQ(scene.lights.size(), 1u);
+  EXPECT_FALSE(scene.cameras[0].name.empty());
+  EXPECT_FALSE(scene.lights[0].name.empty());
+  EXPECT_NO_THROW(validate({scene.cameras[0], scene.lights[0], scene.medium, {64, 36}}));
+
+  const Geometry& geometry = scene.geometry;
+  ASSERT_EQ(geometry.material_of_triangle.size(), geometry.triangles.size());
+  for (std::size_t i = 0; i < geometry.triangles.size(); ++i) {
+    const glm::uvec3 t = geometry.triangles[i];
+    ASSERT_LT(std::max({t.x, t.y, t.z}), geometry.positions.size());
+    ASSERT_LT(geometry.material_of_triangle[i], geometry.materials.size());
+    const glm::dvec3 a = geometry.positions[t.x], b = geometry.positions[t.y], c = geometry.positions[t.z];
+    ASSERT_GT(glm::length(glm::cross(b - a, c - a)), 0.0) << "triangle " << i << " has no area";
+  }
+  for (glm::vec3 p : geometry.positions) ASSERT_TRUE(std::isfinite(p.x + p.y + p.z));
+  for (const Material& m : geometry.materials)
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(m.albedo[i] >= 0.0f && m.albedo[i] <= 1.0f);
+}
+
+INSTANTIATE_TEST_SUITE_P(Builtin, EachBuiltin,
+                         testing::Values("window", "cornell", "empty", "half-space", "sphere"),
+                         [](const auto& test) {
+                           std::string name = test.param;
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+TEST(Builtin, SolidsAreClosedAndFaceOutwards) {
+  for (const char* name : {"window", "cornell", "sphere"}) {
+    const Geometry geometry = find_builtin(name)->make().geometry;
+    EXPECT_EQ(open_edges(geometry), 0u) << name;
+    EXPECT_GT(signed_volume(geometry), 0.0) << name;
+  }
+}
+
+TEST(Builtin, EmptyHasNoGeometry) {
+  EXPECT_TRUE(find_builtin("empty")->make().geometry.triangles.empty());
+}
+
+TEST(Builtin, SphereIsRoundAndHasTheTrianglesItSays) {
+  const Geometry geometry = find_builtin("sphere")->make().geometry;
+  EXPECT_EQ(geometry.triangles.size(), 20480u);
+  EXPECT_EQ(geometry.positions.size(), 10242u);
+  for (glm::vec3 p : geometry.positions) EXPECT_NEAR(glm::length(p), 1.0f, 1e-6f);
+}
+
+TEST(Builtin, HalfSpaceShadowsOneQuarterOfSpaceAndNothingElse) {
+  const Scene scene = find_builtin("half-space")->make();
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> coordinate(-50.0, 50.0);
+  for (int i = 0; i < 1000; ++i) {
+    const glm::dvec3 point(coordinate(random), coordinate(random), coordinate(random));
+    EXPECT_EQ(is_blocked(scene.geometry, scene.lights[0].position, point), point.x < 0.0 && point.y < 0.0)
+        << point.x << " " << point.y << " " << point.z;
+  }
+}
+
+TEST(Builtin, SphereShadowsACone) {
+  const Scene scene = find_builtin("sphere")->make();
+  const glm::dvec3 light = scene.lights[0].position;
+  const double distance = glm::length(light);
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> coordinate(-4.0, 4.0);
+  int shadowed = 0;
+  for (int i = 0; i < 500; ++i) {
+    const glm::dvec3 point(coordinate(random), coordinate(random), coordinate(random));
+    const double cosine = glm::dot(glm::normalize(point - light), -light / distance);
+    const double nearest = distance * std::sqrt(1.0 - cosine * cosine);
+    // The facets stay within 1e-3 of the unit sphere; points in it, and rays that graze it, prove nothing.
+    if (std::abs(nearest - 1.0) < 2e-3 || glm::length(point) < 1.01) continue;
+    const bool behind = nearest < 1.0 && glm::distance(point, light) > distance * cosine;
+    EXPECT_EQ(is_blocked(scene.geometry, light, point), behind && cosine > 0.0);
+    shadowed += behind;
+  }
+  EXPECT_GT(shadowed, 5);
+}
+
+TEST(Window, HasTheSizeOfAnExample) {
+  const std::size_t triangles = find_builtin("window")->make().geometry.triangles.size();
+  EXPECT_GE(triangles, 5'000u);
+  EXPECT_LE(triangles, 60'000u);
+}
+
+/// Whether a light ray meets the middle of the front wall inside a window's outline, stone bars disregarded.
+bool passes_a_window(glm::dvec3 light, glm::dvec3 point) {
+  const double t = (-8.5 - light.z) / (point.z - light.z);
+  const glm::dvec3 at = light + t * (point - light);
+  struct {
+    double x, half_width, sill, spring;
+  } const windows[] = {{-4.0, 0.55, 2.2, 5.2}, {0.0, 2.3, 1.4, 5.0}, {4.0, 0.55, 2.2, 5.2}};
+  for (const auto& w : windows) {
+    const double x = std::abs(at.x - w.x), up = std::max(at.y - w.spring, 0.0);
+    if (at.y > w.sill && std::hypot(x + w.half_width, up) < 2.0 * w.half_width) return true;
+  }
+  return false;
+}
+
+TEST(Window, LightEntersTheHallThroughTheWindowsAlone) {
+  const Scene scene = find_builtin("window")->make();
+  const glm::dvec3 light = scene.lights[0].position;
+  std::vector<glm::dvec3> points;
+  std::mt19937 random(3);
+  const auto between = [&](double a, double b) {
+    return std::uniform_real_distribution<double>(a, b)(random);
+  };
+  for (int i = 0; i < 600; ++i) points.push_back({between(-6, 6), between(0, 11), between(-8, 11)});
+  // A millimetre off the seams of floor, ceiling and walls.
+  const double near = 1e-3;
+  for (int i = 0; i < 60; ++i) {
+    const double x = between(-6, 6), y = between(0, 11), z = between(-8, 11);
+    for (double side : {-6 + near, 6 - near}) {
+      points.insert(points.end(),
+                    {{side, near, z}, {side, 11 - near, z}, {side, y, -8 + near}, {side, y, 11 - near}});
+    }
+    points.insert(points.end(), {{x, near, -8 + near}, {x, 11 - near, -8 + near}, {x, near, 11 - near}});
+  }
+  int lit = 0;
+  for (glm::dvec3 point : points) {
+    const bool blocked = is_blocked(scene.geometry, light, point);
+    lit += !blocked;
+    if (passes_a_window(light, point)) continue;
+    EXPECT_TRUE(blocked) << "light leaks to " << point.x << " " << point.y << " " << point.z;
+  }
+  EXPECT_GT(lit, 30) << "the windows let light in";
+}
+
+TEST(Window, LightIsOutsideAndTheCameraInside) {
+  const Scene scene = find_builtin("window")->make();
+  const glm::dvec3 light = scene.lights[0].position, eye = scene.cameras[0].eye;
+  EXPECT_LT(light.z, -18.0) << "some ten metres beyond the wall";
+  EXPECT_GT(light.y, 11.0) << "above the windows";
+  EXPECT_TRUE(std::abs(eye.x) < 6.0 && eye.y > 0.0 && eye.y < 11.0 && std::abs(eye.z) < 8.0);
+  EXPECT_TRUE(is_blocked(scene.geometry, eye, light)) << "the light itself stays out of sight";
+}
+
+}  // namespace
+}  // namespace airlight::scene

@@ -1,0 +1,977 @@
+#include "scene/import.h"
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <random>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "scene/error.h"
+#include "support/shared.h"
+
+namespace airlight::scene {
+namespace {
+
+using nlohmann::json;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+constexpr float k_nan = std::numeric_limits<float>::quiet_NaN();
+/// Positions and intensities of the importers end in single precision.
+constexpr double k_single = 1e-6;
+
+// ---- Files ----
+
+/// A folder of one test's files, which goes away with the test.
+class Import : public testing::Test {
+ protected:
+  Import() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::path(testing::TempDir()) /
+              ("airlight_" + std::string(test->test_suite_name()) + "_" + test->name());
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+  }
+  ~Import() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path write(const std::string& name, std::string_view content) {
+    std::ofstream(folder_ / name, std::ios::binary) << content;
+    return folder_ / name;
+  }
+  Scene load(const std::string& name, std::string_view content) { return import_scene(write(name, content)); }
+  Scene load(const json& document) { return load("scene.gltf", document.dump()); }
+
+  /// Expects an error of one line that names the file and holds the text.
+  void expect_error(const std::filesystem::path& file, const std::string& text) {
+    try {
+      import_scene(file);
+      ADD_FAILURE() << "no error; expected one with: " << text;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.exit_code, ExitCode::bad_file);
+      EXPECT_THAT(error.what(), HasSubstr(text));
+      EXPECT_THAT(error.what(), HasSubstr(file.filename().string()));
+      EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
+    }
+  }
+  void expect_error(const std::string& name, std::string_view content, const std::string& text) {
+    expect_error(write(name, content), text);
+  }
+  void expect_error(const json& document, const std::string& text) {
+    expect_error("scene.gltf", document.dump(), text);
+  }
+
+  std::filesystem::path folder_;
+};
+
+class ImportGltf : public Import {};
+class ImportObj : public Import {};
+
+// ---- glTF documents ----
+
+template <typename T>
+std::string bytes_of(const std::vector<T>& values) {
+  std::string bytes(values.size() * sizeof(T), '\0');
+  std::memcpy(bytes.data(), values.data(), bytes.size());
+  return bytes;
+}
+
+std::string data_uri(std::string_view bytes) {
+  constexpr std::string_view k_digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string uri = "data:application/octet-stream;base64,";
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned word = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      word = word << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k)
+      uri += i + k > bytes.size() ? '=' : k_digits[word >> (18 - 6 * k) & 63];
+  }
+  return uri;
+}
+
+/// Adds bytes as a buffer of their own with one view. @returns the view's index
+std::size_t add_view(json& document, std::string_view bytes) {
+  document["buffers"].push_back({{"byteLength", bytes.size()}, {"uri", data_uri(bytes)}});
+  document["bufferViews"].push_back(
+      {{"buffer", document["buffers"].size() - 1}, {"byteLength", bytes.size()}});
+  return document["bufferViews"].size() - 1;
+}
+
+/// Adds an accessor of tightly packed values. @returns its index
+template <typename T>
+std::size_t add_accessor(json& document, const std::vector<T>& values, int component_type,
+                         const std::string& type) {
+  const std::size_t components = type == "VEC3" ? 3 : 1;
+  const std::size_t view = add_view(document, bytes_of(values));
+  document["accessors"].push_back({{"bufferView", view},
+                                   {"componentType", component_type},
+                                   {"count", values.size() / components},
+                                   {"type", type}});
+  return document["accessors"].size() - 1;
+}
+
+constexpr int k_u8 = 5121, k_u16 = 5123, k_u32 = 5125, k_float = 5126;
+
+/// The corners of a unit square, counter-clockwise.
+const std::vector<float> k_square = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+
+/// One triangle, (0,0,0) (1,0,0) (1,1,0), without a material: accessor 0 holds the square's four positions,
+/// accessor 1 the indices.
+json triangle() {
+  json document = {{"asset", {{"version", "2.0"}}},
+                   {"scene", 0},
+                   {"scenes", {{{"nodes", {0}}}}},
+                   {"nodes", {{{"mesh", 0}}}},
+                   {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}}}}}}};
+  add_accessor(document, k_square, k_float, "VEC3");
+  add_accessor(document, std::vector<std::uint16_t>{0, 1, 2}, k_u16, "SCALAR");
+  return document;
+}
+
+json& primitive(json& document) {
+  return document["meshes"][0]["primitives"][0];
+}
+
+/// The triangle, with a light or camera or whatever else hung on a second node.
+json with_node(json node, json document = triangle()) {
+  document["nodes"].push_back(std::move(node));
+  document["scenes"][0]["nodes"].push_back(document["nodes"].size() - 1);
+  return document;
+}
+
+json with_light(json light, json node = json::object()) {
+  node["extensions"]["KHR_lights_punctual"]["light"] = 0;
+  json document = with_node(std::move(node));
+  document["extensionsUsed"] = {"KHR_lights_punctual"};
+  document["extensions"]["KHR_lights_punctual"]["lights"] = json::array({std::move(light)});
+  return document;
+}
+
+json with_camera(json camera, json node = json::object()) {
+  node["camera"] = 0;
+  json document = with_node(std::move(node));
+  document["cameras"] = json::array({std::move(camera)});
+  return document;
+}
+
+const json k_perspective = {{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}};
+
+std::string little_endian(std::uint32_t word) {
+  return bytes_of(std::vector<std::uint32_t>{word});
+}
+
+std::string glb(const json& document, std::string binary) {
+  std::string text = document.dump();
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  binary.resize((binary.size() + 3) / 4 * 4, '\0');
+  const auto size = [](const std::string& s) { return little_endian(static_cast<std::uint32_t>(s.size())); };
+  std::string chunks = size(text) + "JSON" + text;
+  if (!binary.empty()) chunks += size(binary) + std::string("BIN\0", 4) + binary;
+  return "glTF" + little_endian(2) + little_endian(static_cast<std::uint32_t>(chunks.size() + 12)) + chunks;
+}
+
+/// The triangle in a .glb, its positions in the binary chunk.
+std::string triangle_glb() {
+  json document = triangle();
+  const std::string positions = bytes_of(k_square);
+  document["buffers"][0].erase("uri");
+  return glb(document, positions);
+}
+
+std::vector<glm::vec3> corners(const Scene& scene, std::size_t triangle) {
+  const glm::uvec3 t = scene.geometry.triangles.at(triangle);
+  return {scene.geometry.positions.at(t.x), scene.geometry.positions.at(t.y),
+          scene.geometry.positions.at(t.z)};
+}
+
+glm::vec3 albedo_of(const Scene& scene, std::size_t triangle) {
+  return scene.geometry.materials.at(scene.geometry.material_of_triangle.at(triangle)).albedo;
+}
+
+void expect_near(glm::dvec3 a, glm::dvec3 b) {
+  EXPECT_NEAR(glm::distance(a, b), 0.0, k_single) << a.x << " " << a.y << " " << a.z;
+}
+
+using V = glm::vec3;
+
+// ---- Any file ----
+
+TEST_F(Import, RefusesWhatIsNoReadableFile) {
+  expect_error(folder_ / "none.glb", "there is no such file");
+  std::filesystem::create_directory(folder_ / "folder.obj");
+  expect_error(folder_ / "folder.obj", "it is not a file");
+  for (const char* name : {"empty.gltf", "empty.glb", "empty.obj"})
+    expect_error(name, "", "the file is empty");
+}
+
+TEST_F(Import, RefusesOtherKindsOfFileAndSaysWhichItReads) {
+  for (const char* name : {"scene.ply", "scene.toml", "scene.FBX", "scene", ".obj"}) {
+    expect_error(name, "v 0 0 0", "cannot be read");
+    expect_error(name, "v 0 0 0", "give a .gltf, .glb or .obj file");
+  }
+}
+
+TEST_F(Import, TakesExtensionsInAnyCaseAndNamesTheSceneAfterTheFile) {
+  EXPECT_EQ(load("Hall.GLTF", triangle().dump()).name, "Hall");
+  EXPECT_EQ(load("a.b.Glb", triangle_glb()).name, "a.b");
+  EXPECT_EQ(load("x.OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").name, "x");
+}
+
+TEST_F(Import, PutsNamesOfManyLinesIntoOneLineOfAMessage) {
+  json document = triangle();
+  document["meshes"][0]["name"] = "a\nb" + std::string(1000, 'x');
+  primitive(document)["material"] = 7;
+  expect_error(document, "mesh 0 'a bxx");
+}
+
+// ---- glTF: geometry ----
+
+TEST_F(ImportGltf, ReadsATriangle) {
+  const Scene scene = load(triangle());
+  ASSERT_EQ(scene.geometry.triangles.size(), 1u);
+  EXPECT_THAT(corners(scene, 0), ElementsAre(V(0, 0, 0), V(1, 0, 0), V(1, 1, 0)));
+  EXPECT_EQ(albedo_of(scene, 0), V(1.0f)) << "glTF's default material is white";
+  EXPECT_THAT(scene.report.warnings, IsEmpty());
+  EXPECT_EQ(scene.report.degenerate_triangles, 0u);
+  EXPECT_THAT(scene.cameras, IsEmpty());
+  EXPECT_THAT(scene.lights, IsEmpty());
+}
+
+TEST_F(ImportGltf, ReadsBinaryFilesAndBuffersInOtherFiles) {
+  EXPECT_THAT(corners(load("scene.glb", triangle_glb()), 0), ElementsAre(V(0, 0, 0), V(1, 0, 0), V(1, 1, 0)));
+
+  json document = triangle();
+  write("positions 1.bin", bytes_of(k_square));
+  document["buffers"][0]["uri"] = "positions%201.bin";
+  EXPECT_THAT(corners(load(document), 0), ElementsAre(V(0, 0, 0), V(1, 0, 0), V(1, 1, 0)));
+  document["buffers"][0]["uri"] = "none.bin";
+  expect_error(document, "none.bin");
+}
+
+TEST_F(ImportGltf, LooksForBuffersBesideTheFileOnly) {
+  json document = triangle();
+  document["buffers"][0]["uri"] = "positions.bin";
+  write("positions.bin", bytes_of(k_square));
+  std::filesystem::create_directory(folder_ / "inner");
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder_);
+  expect_error("inner/scene.gltf", document.dump(), "positions.bin");
+  std::filesystem::current_path(before);
+}
+
+TEST_F(ImportGltf, ReadsIndicesOfEveryType) {
+  const auto with_indices = [](auto values, int type) {
+    json document = triangle();
+    primitive(document)["indices"] = add_accessor(document, values, type, "SCALAR");
+    return document;
+  };
+  const std::vector<json> documents = {with_indices(std::vector<std::uint8_t>{3, 0, 1}, k_u8),
+                                       with_indices(std::vector<std::uint16_t>{3, 0, 1}, k_u16),
+                                       with_indices(std::vector<std::uint32_t>{3, 0, 1}, k_u32)};
+  for (const json& document : documents)
+    EXPECT_THAT(corners(load(document), 0), ElementsAre(V(0, 1, 0), V(0, 0, 0), V(1, 0, 0)));
+  expect_error(with_indices(std::vector<float>{0, 1, 2}, k_float), "accessor 2: indices must be scalars");
+}
+
+TEST_F(ImportGltf, ReadsStripsFansAndUnindexedTriangles) {
+  json document = triangle();
+  primitive(document).erase("indices");
+  primitive(document)["mode"] = 5;
+  Scene scene = load(document);
+  ASSERT_EQ(scene.geometry.triangles.size(), 2u);
+  EXPECT_THAT(corners(scene, 0), ElementsAre(V(0, 0, 0), V(1, 0, 0), V(1, 1, 0)));
+  EXPECT_THAT(corners(scene, 1), ElementsAre(V(1, 0, 0), V(0, 1, 0), V(1, 1, 0)))
+      << "turned to face the same way";
+
+  primitive(document)["mode"] = 6;
+  scene = load(document);
+  ASSERT_EQ(scene.geometry.triangles.size(), 2u);
+  EXPECT_THAT(corners(scene, 0), ElementsAre(V(1, 0, 0), V(1, 1, 0), V(0, 0, 0)));
+  EXPECT_THAT(corners(scene, 1), ElementsAre(V(1, 1, 0), V(0, 1, 0), V(0, 0, 0)));
+
+  primitive(document)["mode"] = 4;
+  expect_error(document, "mesh 0, primitive 0: 4 corners do not make up triangles");
+  document["accessors"][0]["count"] = 3;
+  EXPECT_EQ(load(document).geometry.triangles.size(), 1u);
+  document["accessors"][0]["count"] = 2;
+  primitive(document)["mode"] = 5;
+  expect_error(document, "2 corners do not make up triangles");
+  primitive(document)["mode"] = 7;
+  expect_error(document, "there is no primitive mode 7");
+}
+
+TEST_F(ImportGltf, ReadsInterleavedPositionsFromAnOffset) {
+  json document = triangle();
+  const std::vector<float> mixed = {9, 9, 0, 0, 0, 9, 1, 0, 0, 9, 1, 1, 0, 9};
+  document["accessors"][0]["bufferView"] = add_view(document, bytes_of(mixed));
+  document["bufferViews"].back()["byteStride"] = 16;
+  document["bufferViews"].back()["byteOffset"] = 4;
+  document["bufferViews"].back()["byteLength"] = 52;
+  document["accessors"][0]["byteOffset"] = 4;
+  document["accessors"][0]["count"] = 3;
+  EXPECT_THAT(corners(load(document), 0), ElementsAre(V(0, 0, 0), V(1, 0, 0), V(1, 1, 0)));
+}
+
+TEST_F(ImportGltf, ReadsSparsePositions) {
+  json document = triangle();
+  const std::size_t indices = add_view(document, bytes_of(std::vector<std::uint8_t>{1, 2}));
+  const std::size_t values = add_view(document, bytes_of(std::vector<float>{5, 0, 0, 5, 6, 7}));
+  json& accessor = document["accessors"][0];
+  accessor["sparse"] = {{"count", 2},
+                        {"indices", {{"bufferView", indices}, {"componentType", k_u8}}},
+                        {"values", {{"bufferView", values}}}};
+  EXPECT_THAT(corners(load(document), 0), ElementsAre(V(0, 0, 0), V(5, 0, 0), V(5, 6, 7)));
+  accessor.erase("bufferView");
+  EXPECT_THAT(corners(load(document), 0), ElementsAre(V(0, 0, 0), V(5, 0, 0), V(5, 6, 7)))
+      << "the rest is zero";
+
+  accessor["sparse"]["indices"]["componentType"] = k_float;
+  expect_error(document, "accessor 0: its sparse indices must be");
+  accessor["sparse"]["indices"]["componentType"] = k_u16;
+  expect_error(document, "accessor 0: its 2 elements reach to byte 4 of a buffer view of 2");
+  accessor["sparse"]["indices"]["componentType"] = k_u8;
+  accessor["sparse"]["count"] = 5;
+  expect_error(document, "its sparse part is broken");
+  accessor["sparse"]["count"] = 2;
+  accessor["sparse"]["values"]["byteOffset"] = 4;
+  expect_error(document, "its 2 elements reach to byte 28");
+  accessor["sparse"]["values"]["byteOffset"] = 4'000'000'000u;
+  expect_error(document, "its sparse part is broken");
+  accessor["sparse"]["values"]["byteOffset"] = 0;
+  accessor["count"] = 2;
+  expect_error(document, "sparse index 2 is out of range: 2 elements");
+  document["accessors"][1]["sparse"] = accessor["sparse"];
+  accessor["count"] = 4;
+  expect_error(document, "accessor 1: sparse indices are not supported");
+}
+
+TEST_F(ImportGltf, DropsAndCountsTrianglesOfZeroAreaButKeepsThinOnes) {
+  json document = triangle();
+  // A line, a point, a repeated index, one that is thin, and one whose area vanishes in single precision.
+  const std::vector<float> positions = {0, 0, 0, 1, 0, 0, 2, 0, 0, 1, 1e-30f, 0, 0, 0, 1e-30f};
+  primitive(document)["attributes"]["POSITION"] = add_accessor(document, positions, k_float, "VEC3");
+  primitive(document)["indices"] = add_accessor(
+      document, std::vector<std::uint8_t>{0, 1, 2, 1, 1, 1, 0, 0, 2, 0, 1, 3, 0, 4, 3}, k_u8, "SCALAR");
+  const Scene scene = load(document);
+  EXPECT_EQ(scene.report.degenerate_triangles, 3u);
+  EXPECT_EQ(scene.geometry.triangles.size(), 2u);
+  EXPECT_EQ(scene.geometry.material_of_triangle.size(), 2u);
+}
+
+TEST_F(ImportGltf, DropsTrianglesWhoseCornersCoincideAfterRounding) {
+  json document = triangle();
+  document["nodes"][0]["translation"] = {1e9, 0, 0};  // where neighbouring floats are 64 apart
+  const Scene scene = load(document);
+  EXPECT_EQ(scene.report.degenerate_triangles, 1u);
+  EXPECT_THAT(scene.report.warnings, ElementsAre("the file has no triangles"));
+}
+
+TEST_F(ImportGltf, RefusesPositionsThatAreNotFiniteAndSaysWhere) {
+  for (float bad : {k_nan, std::numeric_limits<float>::infinity()}) {
+    json document = triangle();
+    document["meshes"].push_back(document["meshes"][0]);
+    document["meshes"][1]["name"] = "leaf";
+    document["meshes"][1]["primitives"].push_back(primitive(document));
+    document["nodes"].push_back({{"mesh", 1}});
+    document["scenes"][0]["nodes"] = {0, 1};
+    std::vector<float> positions = k_square;
+    positions[7] = bad;
+    document["meshes"][1]["primitives"][1]["attributes"]["POSITION"] =
+        add_accessor(document, positions, k_float, "VEC3");
+    expect_error(document, "mesh 1 'leaf', primitive 1, vertex 2: the position is not finite");
+  }
+}
+
+TEST_F(ImportGltf, RefusesExtentsThatOverflow) {
+  json document = triangle();
+  document["nodes"][0]["scale"] = {1, 1e19, 1};
+  expect_error(document, "the extent of the geometry overflows single precision");
+  document["nodes"][0]["scale"] = {1, 1e300, 1};
+  expect_error(document, "the extent of the geometry overflows single precision");
+  document["nodes"][0]["scale"] = {1, 1e17, 1};
+  EXPECT_NO_THROW(load(document));
+}
+
+// ---- glTF: nodes ----
+
+TEST_F(ImportGltf, AppliesTranslationRotationAndScaleInThatOrder) {
+  json document = triangle();
+  const double half = std::sqrt(0.5);  // a quarter turn about +Z takes +X to +Y
+  document["nodes"][0].update(
+      {{"translation", {10, 20, 30}}, {"rotation", {0, 0, half, half}}, {"scale", {2, 3, 4}}});
+  const std::vector<glm::vec3> at = corners(load(document), 0);
+  expect_near(at[0], {10, 20, 30});
+  expect_near(at[1], {10, 22, 30});
+  expect_near(at[2], {7, 22, 30});
+}
+
+TEST_F(ImportGltf, MultipliesMatricesDownTheTreeAndExpandsInstances) {
+  json document = triangle();
+  // Columns first: x' = 2x + 5, mirrored in z. The child moves by one along its parent's +X.
+  document["nodes"] = {{{"children", {1, 2}}, {"matrix", {2, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 5, 0, 0, 1}}},
+                       {{"mesh", 0}, {"translation", {1, 0, 3}}},
+                       {{"mesh", 0}}};
+  const Scene scene = load(document);
+  ASSERT_EQ(scene.geometry.triangles.size(), 2u);
+  EXPECT_THAT(corners(scene, 0), ElementsAre(V(7, 0, -3), V(9, 0, -3), V(9, 1, -3)));
+  EXPECT_THAT(corners(scene, 1), ElementsAre(V(5, 0, 0), V(7, 0, 0), V(7, 1, 0)));
+}
+
+TEST_F(ImportGltf, AccumulatesTransformsInDoublePrecision) {
+  json document = triangle();
+  document["nodes"] = {{{"children", {1}}, {"translation", {1e12, 0, 0}}},
+                       {{"mesh", 0}, {"translation", {-1e12, 0, 0}}}};
+  EXPECT_THAT(corners(load(document), 0), ElementsAre(V(0, 0, 0), V(1, 0, 0), V(1, 1, 0)));
+}
+
+TEST_F(ImportGltf, ShowsTheDefaultSceneOrTheFirstOrAllRoots) {
+  json document = triangle();
+  document["nodes"] = {{{"mesh", 0}, {"translation", {1, 0, 0}}},
+                       {{"children", {2}}, {"translation", {2, 0, 0}}},
+                       {{"mesh", 0}, {"translation", {0, 5, 0}}}};
+  document["scenes"] = {{{"nodes", {1}}}, {{"nodes", {0}}}};
+  document["scene"] = 1;
+  EXPECT_EQ(corners(load(document), 0)[0], V(1, 0, 0));
+  document.erase("scene");
+  EXPECT_EQ(corners(load(document), 0)[0], V(2, 5, 0));
+  document.erase("scenes");
+  const Scene scene = load(document);
+  ASSERT_EQ(scene.geometry.triangles.size(), 2u) << "a child is no root";
+  EXPECT_EQ(corners(scene, 0)[0], V(1, 0, 0));
+  EXPECT_EQ(corners(scene, 1)[0], V(2, 5, 0));
+}
+
+TEST_F(ImportGltf, RefusesBrokenNodes) {
+  const auto expect_broken = [&](const std::string& text, auto&& change) {
+    json document = triangle();
+    change(document);
+    expect_error(document, text);
+  };
+  expect_broken("two parents, or is its own ancestor", [](json& d) { d["nodes"][0]["children"] = {0}; });
+  expect_broken("node 0: it has two parents", [](json& d) {
+    d["nodes"][0]["children"] = {1};
+    d["nodes"].push_back({{"children", {0}}});
+  });
+  expect_broken("two parents", [](json& d) { d["scenes"][0]["nodes"] = {0, 0}; });
+  expect_broken("node 7 does not exist: there are 1", [](json& d) { d["nodes"][0]["children"] = {7}; });
+  expect_broken("scene: node 7 does not exist", [](json& d) { d["scenes"][0]["nodes"] = {7}; });
+  expect_broken("scene 3 does not exist", [](json& d) { d["scene"] = 3; });
+  expect_broken("node 0 'a': mesh 4 does not exist", [](json& d) {
+    d["nodes"][0].update({{"mesh", 4}, {"name", "a"}});
+  });
+  expect_broken("not a unit quaternion: its length is 0", [](json& d) {
+    d["nodes"][0]["rotation"] = {0, 0, 0, 0};
+  });
+  expect_broken("not a unit quaternion", [](json& d) { d["nodes"][0]["rotation"] = {0, 0, 0, 2}; });
+  expect_broken("the last row of its matrix",
+                [](json& d) { d["nodes"][0]["matrix"] = {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}; });
+}
+
+TEST_F(ImportGltf, StandsAVeryLongChainOfNodes) {
+  json document = triangle();
+  document["nodes"] = json::array();
+  for (int i = 0; i < 50'000; ++i) document["nodes"].push_back({{"children", {i + 1}}});
+  document["nodes"].push_back({{"mesh", 0}});
+  EXPECT_EQ(load(document).geometry.triangles.size(), 1u);
+}
+
+// ---- glTF: materials, cameras, lights ----
+
+TEST_F(ImportGltf, TakesTheBaseColourAsAlbedo) {
+  json document = triangle();
+  document["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {0.25, 0.5, 1, 0}}}}},
+                           json::object()};
+  primitive(document)["material"] = 0;
+  EXPECT_EQ(albedo_of(load(document), 0), V(0.25f, 0.5f, 1.0f));
+  primitive(document)["material"] = 1;
+  EXPECT_EQ(albedo_of(load(document), 0), V(1.0f));
+  primitive(document)["material"] = 2;
+  expect_error(document, "mesh 0, primitive 0: material 2 does not exist: there are 2");
+
+  for (double bad : {1.01, -0.01}) {
+    document["materials"][1] = {{"name", "brass"},
+                                {"pbrMetallicRoughness", {{"baseColorFactor", {0, bad, 0, 1}}}}};
+    expect_error(document, "material 1 'brass': a base colour of ");
+  }
+}
+
+TEST_F(ImportGltf, ReadsPerspectiveCameras) {
+  const double half = std::sqrt(0.5);
+  // A quarter turn about +X takes -Z to +Y, and +Y to +Z.
+  const json node = {{"translation", {1, 2, 3}}, {"rotation", {half, 0, 0, half}}, {"scale", {7, 7, 7}}};
+  const Scene scene = load(with_camera(k_perspective, node));
+  ASSERT_EQ(scene.cameras.size(), 1u);
+  const Camera& camera = scene.cameras[0];
+  EXPECT_EQ(camera.name, "camera 0");
+  expect_near(camera.eye, {1, 2, 3});
+  expect_near(camera.target, {1, 3, 3});
+  expect_near(camera.up, {0, 0, 1});
+  EXPECT_NEAR(camera.vertical_fov_degrees, 0.5 * 180.0 / 3.14159265358979, k_single);
+
+  json named = k_perspective;
+  EXPECT_EQ(load(with_camera(named, {{"name", "node"}})).cameras[0].name, "node");
+  named["name"] = "own";
+  EXPECT_EQ(load(with_camera(named, {{"name", "node"}})).cameras[0].name, "own");
+}
+
+TEST_F(ImportGltf, RefusesCamerasThatSeeNothing) {
+  expect_error(with_camera(k_perspective, {{"scale", {1, 1, 0}}}), "node 1");
+  json camera = k_perspective;
+  camera["perspective"]["yfov"] = 4.0;
+  expect_error(with_camera(camera, {{"name", "eye"}}),
+               "node 1 'eye': camera 'eye': a vertical field of view");
+  json document = with_camera(k_perspective);
+  document["cameras"] = json::array();
+  expect_error(document, "node 1: camera 0 does not exist");
+}
+
+TEST_F(ImportGltf, ReadsPointLights) {
+  json node = {{"translation", {1, 2, 3}}, {"name", "lamp"}};
+  Scene scene = load(with_light({{"type", "point"}, {"color", {1, 0.5, 0}}, {"intensity", 20}}, node));
+  ASSERT_EQ(scene.lights.size(), 1u);
+  EXPECT_EQ(scene.lights[0].name, "lamp");
+  expect_near(scene.lights[0].position, {1, 2, 3});
+  EXPECT_EQ(scene.lights[0].intensity, V(20, 10, 0));
+  EXPECT_THAT(scene.report.warnings, IsEmpty());
+
+  scene = load(with_light({{"type", "point"}}));
+  EXPECT_EQ(scene.lights[0].intensity, V(1.0f)) << "the defaults are white and one candela";
+  EXPECT_EQ(scene.lights[0].name, "light 0");
+  EXPECT_EQ(load(with_light({{"type", "point"}, {"name", "own"}}, node)).lights[0].name, "own");
+}
+
+TEST_F(ImportGltf, PutsLightsWhereTheWholeTreeMovesThem) {
+  json document = with_light({{"type", "point"}}, {{"translation", {0, 0, 1}}});
+  document["nodes"].push_back({{"children", {1}}, {"scale", {1, 1, 3}}, {"translation", {4, 0, 0}}});
+  document["scenes"][0]["nodes"] = {0, 2};
+  expect_near(load(document).lights.at(0).position, {4, 0, 3});
+}
+
+TEST_F(ImportGltf, RefusesBrokenLights) {
+  expect_error(with_light({{"type", "point"}, {"intensity", -1}}), "node 1: the light's intensity -1 is not");
+  expect_error(with_light({{"type", "point"}, {"intensity", 1e300}}), "the light's intensity 1e+300 is not");
+  expect_error(with_light({{"type", "point"}, {"color", {1, -2, 1}}}), "the light's intensity -2 is not");
+  json document = with_light({{"type", "point"}});
+  document["nodes"][1]["extensions"]["KHR_lights_punctual"]["light"] = 1;
+  expect_error(document, "node 1: light 1 does not exist: there are 1");
+  document["nodes"][1]["extensions"]["KHR_lights_punctual"] = json::object();
+  expect_error(document, "names no light");
+  document["nodes"][1]["extensions"]["KHR_lights_punctual"]["light"] = 4294967296;
+  expect_error(document, "/nodes/1/extensions/KHR_lights_punctual/light");
+}
+
+// ---- glTF: what is left out ----
+
+TEST_F(ImportGltf, WarnsOfWhatItLeavesOutWithCounts) {
+  const auto expect_warning = [&](const std::string& text, const json& document) {
+    EXPECT_THAT(load(document).report.warnings, Contains(HasSubstr(text)));
+  };
+  const auto changed = [](auto&& change) {
+    json document = triangle();
+    change(document);
+    return document;
+  };
+  const auto with_material = [](json material) {
+    json document = triangle();
+    document["materials"] = json::array({std::move(material)});
+    return document;
+  };
+  expect_warning("spot lights ignored (1)", with_light({{"type", "spot"}, {"spot", json::object()}}));
+  expect_warning("directional lights ignored (1)", with_light({{"type", "directional"}}));
+  expect_warning("lights of unknown type ignored (1)", with_light({{"type", "laser"}}));
+  expect_warning("ranges of lights ignored (1)", with_light({{"type", "point"}, {"range", 5}}));
+  expect_warning("orthographic cameras ignored (1)",
+                 with_camera({{"type", "orthographic"},
+                              {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"zfar", 2}, {"znear", 1}}}}));
+  expect_warning("textures ignored (2)", changed([](json& d) {
+                   d["textures"] = {json::object(), json::object()};
+                 }));
+  expect_warning("light of emissive materials ignored (1)", with_material({{"emissiveFactor", {0, 1, 0}}}));
+  expect_warning("alpha masks of materials ignored (1)", with_material({{"alphaMode", "MASK"}}));
+  expect_warning("transparency of materials ignored (1)", with_material({{"alphaMode", "BLEND"}}));
+  expect_warning("transmission of materials ignored (1)",
+                 with_material({{"extensions", {{"KHR_materials_transmission", json::object()}}}}));
+  expect_warning("morph targets of primitives ignored (1)", changed([](json& d) {
+                   primitive(d)["targets"] = {{{"POSITION", 0}}};
+                 }));
+  expect_warning("vertex colours of primitives ignored (1)",
+                 changed([](json& d) { primitive(d)["attributes"]["COLOR_0"] = 0; }));
+  expect_warning("animations ignored (1)", changed([](json& d) { d["animations"] = {json::object()}; }));
+  expect_warning("skins ignored (1)", changed([](json& d) {
+                   d["nodes"][0]["skin"] = 0;
+                   d["skins"] = {{{"joints", {0}}}};
+                 }));
+  for (int mode : {0, 1, 2, 3}) {
+    json document = changed([&](json& d) { primitive(d)["mode"] = mode; });
+    expect_warning("primitives of points or lines ignored (1)", document);
+    expect_warning("the file has no triangles", document);
+  }
+  expect_warning("extension KHR_draco_mesh_compression ignored",
+                 changed([](json& d) { d["extensionsUsed"] = {"KHR_draco_mesh_compression"}; }));
+}
+
+TEST_F(ImportGltf, CountsEachUseOfALight) {
+  json document = with_light({{"type", "directional"}});
+  for (int i = 0; i < 2; ++i) document = with_node(document["nodes"][1], document);
+  EXPECT_THAT(load(document).report.warnings,
+              ElementsAre("directional lights ignored (3): only point lights are rendered"));
+}
+
+TEST_F(ImportGltf, LoadsNoImages) {
+  json document = triangle();
+  write("broken.png", "this is no picture");
+  document["images"] = {
+      {{"uri", "broken.png"}}, {{"uri", "missing.png"}}, {{"bufferView", 0}, {"mimeType", "image/png"}}};
+  EXPECT_EQ(load(document).geometry.triangles.size(), 1u);
+}
+
+TEST_F(ImportGltf, RefusesExtensionsThatItMustUnderstandAndDoesNot) {
+  json document = triangle();
+  document["extensionsRequired"] = {"KHR_lights_punctual"};
+  EXPECT_NO_THROW(load(document));
+  document["extensionsRequired"] = {"KHR_lights_punctual", "KHR_draco_mesh_compression"};
+  expect_error(document, "it requires the extension KHR_draco_mesh_compression");
+}
+
+// ---- glTF: hostile files ----
+
+TEST_F(ImportGltf, RefusesBrokenAccessors) {
+  const auto expect_broken = [&](const std::string& text, auto&& change) {
+    json document = triangle();
+    change(document);
+    expect_error(document, text);
+  };
+  expect_broken("accessor 0: its 5 elements reach to byte 60 of a buffer view of 48",
+                [](json& d) { d["accessors"][0]["count"] = 5; });
+  expect_broken("reach to byte 49 of", [](json& d) { d["accessors"][0]["byteOffset"] = 1; });
+  expect_broken("reach to byte 4294967343 of", [](json& d) { d["accessors"][0]["byteOffset"] = 4294967295; });
+  expect_broken("/accessors/0/byteOffset", [](json& d) { d["accessors"][0]["byteOffset"] = 4294967296; });
+  expect_broken("/accessors/0/byteOffset", [](json& d) { d["accessors"][0]["byteOffset"] = -12; });
+  expect_broken("accessor 0: it is empty", [](json& d) { d["accessors"][0]["count"] = 0; });
+  expect_broken("more than the limit", [](json& d) { d["accessors"][0]["count"] = 4294967295; });
+  expect_broken("/accessors/0/count", [](json& d) { d["accessors"][0]["count"] = 6148914691236517206; });
+  expect_broken("/accessors/0/count", [](json& d) { d["accessors"][0]["count"] = 2.5; });
+  expect_broken("accessor 0: a stride of 8 bytes does not fit its elements of 12",
+                [](json& d) { d["bufferViews"][0]["byteStride"] = 8; });
+  expect_broken("byteStride", [](json& d) { d["bufferViews"][0]["byteStride"] = 256; });
+  expect_broken("accessor 1: a stride of 4 bytes does not fit its elements of 2",
+                [](json& d) { d["bufferViews"][1]["byteStride"] = 4; });
+  expect_broken("buffer view 0: it reaches to byte 49 of a buffer of 48",
+                [](json& d) { d["bufferViews"][0]["byteLength"] = 49; });
+  expect_broken("buffer view 0: it reaches to byte 4294967343 of",
+                [](json& d) { d["bufferViews"][0]["byteOffset"] = 4294967295; });
+  expect_broken("buffer view 0: buffer 9 does not exist", [](json& d) { d["bufferViews"][0]["buffer"] = 9; });
+  expect_broken("accessor 0: buffer view 9 does not exist",
+                [](json& d) { d["accessors"][0]["bufferView"] = 9; });
+  expect_broken("accessor 0: it has no data", [](json& d) { d["accessors"][0].erase("bufferView"); });
+  expect_broken("positions must be vectors of three floats",
+                [](json& d) { d["accessors"][0]["type"] = "VEC2"; });
+  expect_broken("positions must be vectors of three floats",
+                [](json& d) { d["accessors"][0]["componentType"] = k_u16; });
+  expect_broken("componentType", [](json& d) { d["accessors"][0]["componentType"] = 1; });
+  expect_broken("indices must be scalars", [](json& d) { d["accessors"][1]["type"] = "VEC3"; });
+  expect_broken("accessor 9 does not exist", [](json& d) { primitive(d)["attributes"]["POSITION"] = 9; });
+  expect_broken("out of bounds", [](json& d) { primitive(d)["indices"] = 9; });
+  expect_broken("it has no positions", [](json& d) { primitive(d)["attributes"] = {{"NORMAL", 0}}; });
+  expect_broken("index 3 is out of range: 3 vertices", [](json& d) {
+    d["accessors"][0]["count"] = 3;
+    primitive(d)["indices"] = add_accessor(d, std::vector<std::uint8_t>{0, 1, 3}, k_u8, "SCALAR");
+  });
+  expect_broken("byteLength", [](json& d) { d["buffers"][0].erase("byteLength"); });
+  expect_broken("Failed to decode", [](json& d) { d["buffers"][0]["byteLength"] = 47; });
+  expect_broken("attributes", [](json& d) { primitive(d).erase("attributes"); });
+}
+
+TEST_F(ImportGltf, RefusesValuesOfAWrongKindAndNamesTheirPlace) {
+  const auto expect_broken = [&](const std::string& place, auto&& change) {
+    json document = triangle();
+    change(document);
+    expect_error(document, place + ": glTF does not allow the value");
+  };
+  expect_broken("/nodes/0/mesh", [](json& d) { d["nodes"][0]["mesh"] = "0"; });
+  expect_broken("/nodes/0/mesh", [](json& d) { d["nodes"][0]["mesh"] = 4294967296; });
+  expect_broken("/nodes/0/translation", [](json& d) { d["nodes"][0]["translation"] = {1, 2}; });
+  expect_broken("/nodes/0/scale", [](json& d) { d["nodes"][0]["scale"] = {1, 2, "3"}; });
+  expect_broken("/nodes/0/matrix", [](json& d) { d["nodes"][0]["matrix"] = {1, 2, 3}; });
+  expect_broken("/nodes/0/rotation", [](json& d) { d["nodes"][0]["rotation"] = nullptr; });
+  expect_broken("/nodes/0/children", [](json& d) { d["nodes"][0]["children"] = {-1}; });
+  expect_broken("/meshes", [](json& d) { d["meshes"] = 3; });
+  expect_broken("/meshes/0/primitives", [](json& d) { d["meshes"][0]["primitives"] = {1}; });
+  expect_broken("/extensionsRequired", [](json& d) { d["extensionsRequired"] = {1}; });
+  expect_broken("/materials/0/pbrMetallicRoughness/baseColorFactor", [](json& d) {
+    d["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1}}}}}};
+  });
+  json document = triangle();
+  primitive(document)["attributes"]["POSITION"] = -1;
+  expect_error(document, "/meshes/0/primitives/0/attributes: attribute POSITION names no accessor");
+  document = triangle();
+  document["nodes"][0]["extras"] = {{"mesh", "anything"}};
+  EXPECT_NO_THROW(load(document)) << "extras are the file's own";
+}
+
+TEST_F(ImportGltf, RefusesBrokenText) {
+  expect_error("a.gltf", "{\"asset\":", "its JSON is broken");
+  expect_error("a.gltf", "no json", "its JSON is broken");
+  expect_error("a.gltf", "[1, 2]", "its JSON is not an object");
+  expect_error("a.gltf", R"({"scene": 0})", "asset");
+  expect_error("a.gltf", R"({"nodes": [{"translation": [1e999, 0, 0]}]})", "its JSON is broken");
+  std::string deep = R"({"asset": {"version": "2.0"}, "extras": )";
+  for (int i = 0; i < 100'000; ++i) deep += '[';
+  expect_error("a.gltf", deep, "nested more than 100 levels deep");
+  json document = triangle();
+  document["asset"]["generator"] = "\"" + std::string(1000, '[');
+  EXPECT_NO_THROW(load(document)) << "brackets in strings nest nothing";
+}
+
+TEST_F(ImportGltf, RefusesMoreVerticesThanMemoryHolds) {
+  // A sparse array costs the file nothing.
+  json document = triangle();
+  json& accessor = document["accessors"][0];
+  accessor.erase("bufferView");
+  accessor["count"] = 300'000'000;
+  accessor["sparse"] = {{"count", 3},
+                        {"indices", {{"bufferView", 1}, {"componentType", k_u16}}},
+                        {"values", {{"bufferView", 0}}}};
+  expect_error(document, "more than the limit of");
+}
+
+TEST_F(ImportGltf, RefusesBinaryFilesThatAreCutOff) {
+  const std::string whole = triangle_glb();
+  ASSERT_NO_THROW(load("whole.glb", whole));
+  for (std::size_t size = 1; size < whole.size(); ++size)
+    EXPECT_THROW(load("cut.glb", whole.substr(0, size)), Error) << size << " of " << whole.size() << " bytes";
+  expect_error("cut.glb", whole.substr(0, whole.size() - 4), "the file is cut off: ");
+}
+
+TEST_F(ImportGltf, RefusesBinaryFilesWithBrokenChunks) {
+  const std::string whole = triangle_glb();
+  const auto with_word = [&](std::size_t at, std::uint32_t word) {
+    std::string bytes = whole;
+    return bytes.replace(at, 4, little_endian(word));
+  };
+  const std::size_t binary = whole.size() - 48 - 8;
+  expect_error("a.glb", with_word(4, 1), "glTF version 1 is not supported");
+  expect_error("a.glb", with_word(12, 0xFFFFFFF0u), "the JSON chunk is longer than the file");
+  expect_error("a.glb", with_word(binary, 56), "the binary chunk is longer than the file");
+  expect_error("a.glb", with_word(binary, 0xFFFFFFF8u), "the binary chunk is longer than the file");
+  expect_error("a.glb", "glTF", "the file ends inside a header");
+  expect_error("a.glb", std::string(64, 'x'), "JSON");
+}
+
+TEST_F(ImportGltf, SurvivesRandomDamage) {
+  // Files that differ from a good one in a few bytes: they load or are refused, and nothing else happens.
+  std::mt19937 random(1);
+  json document = with_light({{"type", "point"}}, {{"children", {2}}});
+  document["nodes"].push_back({{"camera", 0}});
+  document["cameras"] = json::array({k_perspective});
+  for (const auto& [name, whole] : {std::pair<std::string, std::string>{"damaged.glb", triangle_glb()},
+                                    {"damaged.gltf", document.dump()}}) {
+    for (int i = 0; i < 300; ++i) {
+      std::string bytes = whole;
+      for (int k = 0; k < 3; ++k) {
+        char& byte = bytes[random() % bytes.size()];
+        byte = i % 2 ? static_cast<char>(random()) : "0123456789-{}[],:\""[random() % 18];
+      }
+      try {
+        load(name, bytes);
+      } catch (const Error&) {
+      }
+    }
+  }
+}
+
+// ---- OBJ ----
+
+const std::string k_obj_square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+TEST_F(ImportObj, ReadsTrianglesWithTheDefaultMaterial) {
+  const Scene scene = load(
+      "a.obj", "# a comment\n" + k_obj_square + "vt 0 0\nvn 0 0 1\no part\nf 1/1/1 2//1 3\nf -4 -2 -1\n");
+  ASSERT_EQ(scene.geometry.triangles.size(), 2u);
+  EXPECT_THAT(corners(scene, 0), ElementsAre(V(0, 0, 0), V(1, 0, 0), V(1, 1, 0)));
+  EXPECT_THAT(corners(scene, 1), ElementsAre(V(0, 0, 0), V(1, 1, 0), V(0, 1, 0)));
+  EXPECT_EQ(albedo_of(scene, 0), Material{}.albedo);
+  EXPECT_THAT(scene.report.warnings, IsEmpty());
+  EXPECT_THAT(scene.cameras, IsEmpty());
+  EXPECT_THAT(scene.lights, IsEmpty());
+}
+
+TEST_F(ImportObj, ReadsEveryEndOfLineAndFormOfNumber) {
+  const Scene scene = load("a.obj", "v 0 .5 -0.\r\nv +1e0 0 0\r\n\r\nv 1E0 10.0e-1 0\rf 1 2 3");
+  ASSERT_EQ(scene.geometry.triangles.size(), 1u);
+  EXPECT_THAT(corners(scene, 0), ElementsAre(V(0, 0.5f, 0), V(1, 0, 0), V(1, 1, 0)));
+}
+
+TEST_F(ImportObj, CutsPolygons) {
+  EXPECT_EQ(load("a.obj", k_obj_square + "f 1 2 3 4\n").geometry.triangles.size(), 2u);
+  // An L of six corners.
+  const Scene scene = load("a.obj", "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4 5 6\n");
+  ASSERT_EQ(scene.geometry.triangles.size(), 4u);
+  double area = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::vector<glm::vec3> c = corners(scene, i);
+    area += 0.5 * glm::length(glm::cross(c[1] - c[0], c[2] - c[0]));
+  }
+  EXPECT_NEAR(area, 3.0, k_single);
+}
+
+TEST_F(ImportObj, TakesDiffuseColoursFromTheMaterialFile) {
+  write("a.mtl", "newmtl red\nKd 0.9 0.1 0\nnewmtl blue\nKd 0 0 1\n");
+  const std::string text = "mtllib a.mtl\n" + k_obj_square + "usemtl red\nf 1 2 3\nusemtl blue\nf 1 3 4\n";
+  const Scene scene = load("a.obj", text);
+  EXPECT_EQ(albedo_of(scene, 0), V(0.9f, 0.1f, 0.0f));
+  EXPECT_EQ(albedo_of(scene, 1), V(0, 0, 1));
+  EXPECT_THAT(scene.report.warnings, IsEmpty());
+
+  write("a.mtl", "newmtl red\nKd 1.5 0 0\nnewmtl blue\nKd 0 0 1\n");
+  expect_error("a.obj", text, "material 'red': a base colour of 1.5 is not between 0 and 1");
+}
+
+TEST_F(ImportObj, FindsMaterialsInAFolderWithAColon) {
+  std::filesystem::create_directory(folder_ / "a:b");
+  write("a:b/m.mtl", "newmtl red\nKd 1 0 0\n");
+  EXPECT_EQ(albedo_of(load("a:b/m.obj", "mtllib m.mtl\n" + k_obj_square + "usemtl red\nf 1 2 3\n"), 0),
+            V(1, 0, 0));
+}
+
+TEST_F(ImportObj, WarnsOfMissingMaterials) {
+  const Scene scene =
+      load("a.obj", "mtllib none.mtl\n" + k_obj_square + "usemtl red\nf 1 2 3\nusemtl red\nf 1 3 4\n");
+  EXPECT_EQ(scene.geometry.triangles.size(), 2u);
+  EXPECT_EQ(albedo_of(scene, 0), Material{}.albedo);
+  EXPECT_THAT(scene.report.warnings, Contains(HasSubstr("material file 'none.mtl' not found")));
+  EXPECT_THAT(scene.report.warnings, Contains(testing::AllOf(HasSubstr("red"), HasSubstr("(2 times)"))));
+}
+
+TEST_F(ImportObj, WarnsOfWhatItLeavesOutWithCounts) {
+  const auto warnings = [&](const std::string& text) { return load("a.obj", text).report.warnings; };
+  const std::string face = k_obj_square + "f 1 2 3\n";
+  EXPECT_THAT(warnings(face + "l 1 2\np 1\n"), ElementsAre(HasSubstr("2 lines and point sets ignored")));
+  EXPECT_THAT(warnings(face + "v 0 0 0 1 0 0\n"), ElementsAre(HasSubstr("vertex colours ignored")));
+  EXPECT_THAT(warnings(face + "curv 0 1\nsurf\n"),
+              ElementsAre("2 lines not understood, first line 6: 'curv'"));
+  EXPECT_THAT(warnings(face + "f 1 2\n"), ElementsAre(HasSubstr("Degenerated face")));
+  EXPECT_THAT(warnings(k_obj_square), ElementsAre("the file has no triangles"));
+  EXPECT_THAT(warnings("# nothing\n"), ElementsAre("the file has no triangles"));
+
+  write("m.mtl", "newmtl m\nKd 1 1 1\nKe 1 0 0\nd 0.5\nmap_Kd picture.png\n");
+  EXPECT_THAT(warnings("mtllib m.mtl\nusemtl m\n" + face),
+              ElementsAre(HasSubstr("1 materials' textures"), HasSubstr("1 materials' emission"),
+                          HasSubstr("1 transparent materials")));
+}
+
+TEST_F(ImportObj, DropsAndCountsTrianglesOfZeroArea) {
+  const Scene scene = load("a.obj", k_obj_square + "v 2 0 0\nf 1 2 3\nf 1 2 5\nf 1 1 2\n");
+  EXPECT_EQ(scene.report.degenerate_triangles, 2u);
+  EXPECT_EQ(scene.geometry.triangles.size(), 1u);
+}
+
+TEST_F(ImportObj, RefusesCoordinatesThatAreNoFiniteNumbers) {
+  for (const char* bad : {"nan", "inf", "-inf", "1e999", "x", "1.2.3", "0x10", "1e", "--1"})
+    expect_error("a.obj", "v 0 0 0\nv 1 " + std::string(bad) + " 0\n",
+                 "line 2: vertex 2: '" + std::string(bad) + "' is not a finite number");
+  expect_error("a.obj", "v 0 0\n", "line 1: a vertex needs three coordinates");
+  expect_error("a.obj", "v 0 0 0e999\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "not finite");
+}
+
+TEST_F(ImportObj, RefusesFacesOfVerticesThatDoNotExist) {
+  expect_error("a.obj", k_obj_square + "f 1 2 5\n", "line 5: vertex 5 is out of range: 4 vertices");
+  expect_error("a.obj", k_obj_square + "f 1 2 3 9\n", "line 5: vertex 9 is out of range: 4 vertices");
+  expect_error("a.obj", k_obj_square + "f 1 2 -5\n", "line 5: vertex -5 is out of range: 4 vertices so far");
+  expect_error("a.obj", k_obj_square + "f 1 2 -2147483648\n", "vertex -2147483648 is out of range");
+  expect_error("a.obj", k_obj_square + "f 1 2 0\n", "line 5: '0' is not a vertex");
+  expect_error("a.obj", k_obj_square + "f 1 2 x/1\n", "line 5: 'x/1' is not a vertex");
+  expect_error("a.obj", k_obj_square + "f 1 2 99999999999\n", "is not a vertex");
+  EXPECT_EQ(load("a.obj", "f 1 2 3\n" + k_obj_square).geometry.triangles.size(), 1u)
+      << "vertices may come later";
+}
+
+TEST_F(ImportObj, RefusesPolygonsOfVeryManyCorners) {
+  std::string face = "f";
+  for (int i = 0; i < 1001; ++i) face += " 1";
+  expect_error("a.obj", k_obj_square + face, "line 5: a polygon of 1001 corners");
+}
+
+TEST_F(ImportObj, RefusesFilesThatAreNoObj) {
+  expect_error("a.obj",
+               "\x7f"
+               "ELF\x02\x01 binary\nmore of it\n",
+               "this is no OBJ file");
+  expect_error("a.obj", "{\"asset\": {\"version\": \"2.0\"}}", "this is no OBJ file");
+  expect_error("a.obj", std::string("\0\0\0\0", 4), "this is no OBJ file");
+}
+
+// ---- Real files ----
+
+struct Expectation {
+  const char* file;
+  std::size_t triangles, degenerate, cameras, lights;
+};
+
+class SharedScene : public testing::TestWithParam<Expectation> {};
+
+TEST_P(SharedScene, Loads) {
+  const Expectation& expected = GetParam();
+  const std::filesystem::path file = tests::shared_file(std::string("scenes/") + expected.file);
+  AIRLIGHT_NEEDS(file);
+  const Scene scene = import_scene(file);
+  EXPECT_EQ(scene.geometry.triangles.size() + scene.report.degenerate_triangles, expected.triangles);
+  EXPECT_EQ(scene.report.degenerate_triangles, expected.degenerate);
+  EXPECT_EQ(scene.cameras.size(), expected.cameras);
+  EXPECT_EQ(scene.lights.size(), expected.lights);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Import, SharedScene,
+    testing::Values(Expectation{"cornell_box_36.glb", 36, 0, 0, 0},
+                    Expectation{"victorian_fence_19k.glb", 19'368, 128, 0, 0},
+                    Expectation{"railing_degenerate_11k.glb", 11'108, 4'021, 0, 0},
+                    Expectation{"sponza_262k.glb", 262'267, 0, 0, 0},
+                    Expectation{"terrain_1280k.glb", 1'280'000, 0, 0, 0},
+                    Expectation{"dragon_871k.glb", 871'414, 108, 0, 0},
+                    Expectation{"lights_bevy_Cubes_pointlight.glb", 36, 0, 0, 1},
+                    Expectation{"lights_bevy_VolumetricFogExample_geom.glb", 360, 0, 0, 0},
+                    Expectation{"lights_playcanvas_Lights.glb", 12, 0, 1, 1},
+                    Expectation{"lights_playcanvas_geometry_camera_light.glb", 14, 0, 1, 1},
+                    Expectation{"lights_sphere.gltf", 224, 0, 0, 1}),
+    [](const auto& test) {
+      std::string name = test.param.file;
+      return name.substr(0, name.find('.'));
+    });
+
+TEST(SharedFile, RefusesAnExtentThatOverflows) {
+  const std::filesystem::path file = tests::shared_file("scenes/float_overflow_12.obj");
+  AIRLIGHT_NEEDS(file);
+  try {
+    import_scene(file);
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("the extent of the geometry overflows single precision"));
+  }
+}
+
+TEST(SharedFile, KeepsLightsAndCamerasOfPlaycanvas) {
+  const std::filesystem::path file = tests::shared_file("scenes/lights_playcanvas_Lights.glb");
+  AIRLIGHT_NEEDS(file);
+  const Scene scene = import_scene(file);
+  expect_near(scene.lights.at(0).position, {2.598804473876953, 3.5685081481933594, -1.0054539442062378});
+  EXPECT_EQ(scene.lights.at(0).intensity, V(5, 0, 0));
+  expect_near(scene.cameras.at(0).eye, {7.358891487121582, 4.958309173583984, 6.925790786743164});
+  EXPECT_NEAR(scene.cameras.at(0).vertical_fov_degrees, 22.8952, 1e-4);
+  EXPECT_THAT(scene.report.warnings,
+              ElementsAre(HasSubstr("directional lights ignored (1)"), HasSubstr("spot lights ignored (2)")));
+}
+
+}  // namespace
+}  // namespace airlight::scene
