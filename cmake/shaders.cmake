@@ -1,4 +1,5 @@
-# airlight_shaders(TARGET ENTRY...): compiles GLSL entry points under shaders/ to SPIR-V and embeds them.
+# airlight_shaders(TARGET ENTRY...): compiles GLSL entry points under shaders/ to SPIR-V and embeds them. An entry that is
+# not there is looked for beside the CMakeLists.txt that names it.
 #
 # `epipolar/or_scan.comp` becomes the header "spirv/epipolar/or_scan_comp.h" with the words
 # `k_or_scan_comp`. A shader error fails the build; an edited include rebuilds what includes it.
@@ -10,13 +11,17 @@ function(airlight_shaders target)
     string(REPLACE "." "_" stem ${entry})
     get_filename_component(name ${stem} NAME)
     set(output ${CMAKE_BINARY_DIR}/embedded/${target}/spirv/${stem}.h)
+    set(source ${CMAKE_SOURCE_DIR}/shaders/${entry})
+    if(NOT EXISTS ${source})
+      set(source ${CMAKE_CURRENT_SOURCE_DIR}/${entry})
+    endif()
     get_filename_component(folder ${output} DIRECTORY)
     file(MAKE_DIRECTORY ${folder})
     add_custom_command(
       OUTPUT ${output}
       COMMAND ${GLSLANG_VALIDATOR} -G --target-env opengl -I${CMAKE_SOURCE_DIR}/shaders --quiet
-              --depfile ${output}.d --vn k_${name} -o ${output} ${CMAKE_SOURCE_DIR}/shaders/${entry}
-      DEPENDS ${CMAKE_SOURCE_DIR}/shaders/${entry}
+              --depfile ${output}.d --vn k_${name} -o ${output} ${source}
+      DEPENDS ${source}
       DEPFILE ${output}.d
       VERBATIM)
     list(APPEND outputs ${output})

@@ -13,21 +13,24 @@ namespace airlight::quality {
 /// An image of named 32-bit float channels, row 0 at the top, with string metadata.
 struct Image {
   glm::ivec2 size{0};
-  std::map<std::string, std::vector<float>> channels;  ///< e.g. "R", "airlight.G", "distance.Y"; size.x·size.y values each
+  std::map<std::string, std::vector<float>>
+      channels;  ///< e.g. "R", "airlight.G", "distance.Y"; size.x·size.y values each
   std::map<std::string, std::string> metadata;
 };
 
 /// Writes OpenEXR, ZIP-compressed, 32-bit float channels.
-/// @throws scene::Error (bad_file) when the file cannot be written, or a value is NaN or infinite (which names the
-/// channel and pixel).
+/// @throws scene::Error (bad_file) when the file cannot be written, or a value is NaN or infinite (which
+/// names the channel and pixel).
 void write_exr(const std::filesystem::path& file, const Image& image);
 
 /// Reads every channel of an OpenEXR file as float, and its string attributes.
 /// @throws scene::Error (bad_file)
 Image read_exr(const std::filesystem::path& file);
 
-/// Writes an 8-bit sRGB preview of linear radiance: exposure, clamp to [0, 1], sRGB transfer. No tone mapping.
+/// Writes an 8-bit sRGB preview of linear radiance: exposure, clamp to [0, 1], sRGB transfer. No tone
+/// mapping.
 /// @throws scene::Error (bad_file)
-void write_png(const std::filesystem::path& file, std::span<const glm::vec3> radiance, glm::ivec2 size, float exposure);
+void write_png(const std::filesystem::path& file, std::span<const glm::vec3> radiance, glm::ivec2 size,
+               float exposure);
 
 }  // namespace airlight::quality

@@ -6,23 +6,24 @@ namespace airlight::quality {
 
 /// How far an image is from the reference, over all channels of all pixels. See `airlight_error`.
 struct AirlightError {
-  double bias;    ///< mean(x) / mean(r) − 1
-  double rmse;    ///< sqrt(mean((x − r)²)), in the images' unit
-  double rrmse;   ///< rmse / mean(r)
-  double mae;     ///< mean |x − r| / mean(r)
-  double p99;     ///< 99th percentile of |x − r| / mean(r)
-  double max;     ///< largest |x − r| / mean(r)
+  double bias;   ///< mean(x) / mean(r) − 1
+  double rmse;   ///< sqrt(mean((x − r)²)), in the images' unit
+  double rrmse;  ///< rmse / mean(r)
+  double mae;    ///< mean |x − r| / mean(r)
+  double p99;  ///< the smallest value that at least 99 % of |x − r| / mean(r) do not exceed (nearest rank)
+  double max;  ///< largest |x − r| / mean(r)
   double relmse;  ///< mean((x − r)² / (r² + ε)), ε = 1e-2 · mean(r)²
   double psnr;    ///< 20·log10(max(r) / rmse) [dB]; +Inf for equal images
 };
 
 /// Compares two images of the same length, any channel layout.
 /// @param x the image that is judged; @param r the reference
-/// @throws scene::Error (bad_file) when a value is NaN or infinite, or the lengths differ. When mean(r) is 0, relative figures
-/// are 0 for an equal image and +Inf otherwise.
+/// @throws scene::Error (bad_file) when a value is NaN or infinite, or the lengths differ. When mean(r) is 0,
+/// relative figures are 0 for an equal image and +Inf otherwise.
 AirlightError airlight_error(std::span<const float> x, std::span<const float> r);
 
-/// Surface shadows: pixels that hit a surface in both images, and how many of them are lit in one and dark in the other.
+/// Surface shadows: pixels that hit a surface in both images, and how many of them are lit in one and dark in
+/// the other.
 struct SurfaceError {
   std::size_t wrong_pixels;
   std::size_t pixels;
@@ -31,6 +32,7 @@ struct SurfaceError {
 /// @param visibility, reference_visibility 0 or 1 (a value of at least ½ counts as lit)
 /// @param distance, reference_distance 0 where no surface is hit
 SurfaceError surface_error(std::span<const float> visibility, std::span<const float> distance,
-                           std::span<const float> reference_visibility, std::span<const float> reference_distance);
+                           std::span<const float> reference_visibility,
+                           std::span<const float> reference_distance);
 
 }  // namespace airlight::quality

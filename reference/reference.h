@@ -11,14 +11,16 @@ namespace airlight::reference {
 
 /// The ground truth of a view, row 0 at the top. Radiances are RGB, unclamped [W/(m² sr)].
 struct SurfaceImage {
-  std::vector<float> distance;    ///< along the view ray from the eye [m]; 0 where nothing is hit
-  std::vector<float> visibility;  ///< 1 where the light is seen from the surface, 0 in shadow and where nothing is hit
+  std::vector<float> distance;  ///< along the view ray from the eye [m]; 0 where nothing is hit
+  /// 1 where nothing lies between the light and the surface, 0 in shadow and where nothing is hit. A surface
+  /// does not shadow itself: where it turns its back to the light, it is up to the shading to be black.
+  std::vector<float> visibility;
 };
 
 struct AirlightImage {
   std::vector<glm::vec3> radiance;
-  std::uint64_t rays = 0;   ///< occlusion rays traced
-  double ms = 0.0;          ///< wall-clock time of tracing and integrating, primary rays included, BVH build left out
+  std::uint64_t rays = 0;  ///< occlusion rays traced
+  double ms = 0.0;  ///< wall-clock time of tracing and integrating, primary rays included, BVH build left out
   double self_error = 0.0;  ///< rrmse between this image and the one of half as many samples (converged only)
 };
 
@@ -28,8 +30,8 @@ using Progress = std::function<void(double fraction)>;  ///< called from the cal
 
 /// Exact visibility by ray casting (Embree), on every core.
 ///
-/// Shares no code with the methods that it judges. Geometry is held relative to the light, so that coordinates far
-/// from the origin cost no precision.
+/// Shares no code with the methods that it judges. Geometry is held relative to the light, so that
+/// coordinates far from the origin cost no precision.
 class Reference {
  public:
   /// Builds the acceleration structure. The geometry is copied.
@@ -41,12 +43,13 @@ class Reference {
   /// First hits of the rays through pixel centres, and whether each is lit.
   SurfaceImage surfaces(const Progress& progress = {}) const;
 
-  /// `reference-march`: the Riemann sum over `samples` shadow rays per view ray, at the centres of `samples` equal
-  /// steps of φ ∈ [0, φ_d]: what Wyman (2011, Fig. 16) times voxelized shadow volumes against.
+  /// `reference-march`: the Riemann sum over `samples` shadow rays per view ray, at the centres of `samples`
+  /// equal steps of φ ∈ [0, φ_d]: what Wyman (2011, Fig. 16) times voxelized shadow volumes against.
   AirlightImage march(int samples, RayMode mode, const Progress& progress = {}) const;
 
-  /// `reference`: the converged airlight. `samples` uniform steps in φ find the visibility changes, each is bisected
-  /// to 1e-6 of the range, and lit runs are integrated by Gauss–Legendre quadrature in double precision.
+  /// `reference`: the converged airlight. `samples` uniform steps in φ find the visibility changes, each is
+  /// bisected to 1e-6 of the range, and lit runs are integrated by Gauss–Legendre quadrature in double
+  /// precision.
   AirlightImage converged(int samples, const Progress& progress = {}) const;
 
  private:

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "app/options.h"
+#include "scene/error.h"
+
+namespace airlight::app {
+
+// The commands. Each throws scene::Error where it cannot do what is asked.
+
+void render(const Options& options);
+
+/// @throws scene::Error (threshold_missed) after everything is written, when --max-error is missed
+void compare(const Options& options);
+
+void list_scenes();
+void print_info();
+
+}  // namespace airlight::app

@@ -1,0 +1,93 @@
+#include "quality/compare.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "app/commands.h"
+#include "app/output.h"
+#include "quality/numbers.h"
+#include "quality/report.h"
+
+namespace airlight::app {
+namespace {
+
+using scene::Error;
+using scene::ExitCode;
+
+/// @throws Error (threshold_missed) naming the worst run, where one is off by more than `limit`
+void require_accuracy(const quality::Comparison& comparison, double limit) {
+  const quality::Run* worst = nullptr;
+  for (const quality::Run& run : comparison.runs) {
+    if (run.is_judged && (!worst || run.airlight_error.rrmse > worst->airlight_error.rrmse)) worst = &run;
+  }
+  if (!worst) return;
+  // What the reference itself cannot vouch for is not claimed.
+  const double error = std::max(worst->airlight_error.rrmse, comparison.truth.self_error);
+  if (error <= limit) return;
+  throw Error(
+      ExitCode::threshold_missed, fmt::format("--max-error {}", limit),
+      fmt::format("{} × {} is off by {:.4g} (rrmse; the reference's own uncertainty is {:.2g})",
+                  worst->volume, worst->surface, worst->airlight_error.rrmse, comparison.truth.self_error),
+      "give the method more cells or samples, or allow more");
+}
+
+}  // namespace
+
+void compare(const Options& options) {
+  // Everything that can be wrong with the command is found before the driver is woken.
+  const quality::Settings settings = make_settings(options);
+  const auto volumes = quality::parse_volumes(
+      options.get("volume").value_or("vsv,vsv:integral=riemann,reference-march"), settings);
+  const auto surfaces = quality::parse_surfaces(options.get("surface").value_or("shadow-map"), settings);
+  const int shadow_map = shadow_map_size(options);
+  const int frames = quality::parse_count("--frames", options.get("frames").value_or("5"));
+  std::optional<double> limit;
+  if (const auto text = options.get("max-error")) {
+    limit = quality::parse_number("--max-error", *text);
+    if (*limit < 0.0) throw Error(ExitCode::usage, "--max-error", fmt::format("'{}' is negative", *text));
+    if (std::none_of(volumes.begin(), volumes.end(),
+                     [](const auto& choice) { return choice.method->is_judged; })) {
+      throw Error(ExitCode::usage, "--max-error", "no --volume is judged by it", "add one that is, as vsv");
+    }
+  }
+  const Subject subject = make_subject(options);
+  const std::filesystem::path folder =
+      options.output.empty() ? std::filesystem::path("out") / std::filesystem::path(options.scene).stem()
+                             : std::filesystem::path(options.output);
+  require_folder(folder);
+  const auto json = options.get("json");
+  if (json && *json != "-") require_writable(*json);
+  if (!options.quiet) say_warnings(subject.scene.report);
+
+  constexpr auto k_not_repeated = std::to_array<std::string_view>({"volume", "surface", "json"});
+  quality::Comparison comparison;
+  {
+    ProgressLine progress(options.quiet);
+    gpu::Context context;
+    comparison = quality::compare(context, {.scene_name = options.scene,
+                                            .scene = subject.scene,
+                                            .view = subject.view,
+                                            .volumes = volumes,
+                                            .surfaces = surfaces,
+                                            .shadow_map_size = shadow_map,
+                                            .reference_samples = settings.samples,
+                                            .frames = frames,
+                                            .exposure = subject.exposure,
+                                            .directory = folder,
+                                            .command = options.command_line(k_not_repeated),
+                                            .progress = progress.follower()});
+  }
+
+  const std::string results = quality::results_json(comparison);
+  quality::write_text(folder / "results.json", results);
+  quality::write_text(folder / "report.html", quality::report_html(comparison));
+  if (json && *json != "-") quality::write_text(*json, results);
+  print(json == "-" ? results : quality::results_table(comparison));
+  if (!options.quiet) say(fmt::format("{} written", (folder / "report.html").string()));
+  if (limit) require_accuracy(comparison, *limit);
+}
+
+}  // namespace airlight::app

@@ -1,0 +1,141 @@
+#include <new>
+#include <string>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "app/commands.h"
+#include "app/options.h"
+#include "app/output.h"
+#include "quality/results.h"
+
+namespace airlight::app {
+namespace {
+
+using scene::Error;
+using scene::ExitCode;
+
+void add_option(CLI::App& command, Options& options, const OptionLine& line) {
+  command
+      .add_option_function<std::string>(
+          fmt::format("--{}", line.name),
+          [&options, name = std::string(line.name)](const std::string& value) {
+            options.given[name] = value;
+          },
+          line.help)
+      ->type_name(std::string(line.placeholder));
+}
+
+/// What `render` and `compare` share.
+CLI::App& add_image_command(CLI::App& app, Options& options, const char* name, const char* description) {
+  CLI::App& command = *app.add_subcommand(name, description);
+  command.add_option("SCENE", options.scene, "a built-in scene's name, or a .gltf, .glb or .obj file")
+      ->type_name("");
+  for (const OptionLine& line : common_options()) add_option(command, options, line);
+  command.add_flag("--quiet", options.quiet, "say nothing but errors");
+  command.preparse_callback([&options, name](std::size_t) { options.command = name; });
+  return command;
+}
+
+/// Says more than the parser would about a command or an option that does not exist.
+void require_known_words(const CLI::App& app, int argc, char** argv) {
+  constexpr const char* k_commands = "use render, compare, scenes or info";
+  if (argc < 2) throw Error(ExitCode::usage, "command line", "it names no command", k_commands);
+  if (argv[1][0] == '-') return;
+  const auto commands = app.get_subcommands([&](const CLI::App* c) { return c->get_name() == argv[1]; });
+  if (commands.empty()) throw Error(ExitCode::usage, argv[1], "there is no such command", k_commands);
+  for (int i = 2; i < argc; ++i) {
+    const std::string word = argv[i], name = word.substr(0, word.find('='));
+    if (name.starts_with("--") && name != "--" && !commands[0]->get_option_no_throw(name)) {
+      throw Error(ExitCode::usage, name, fmt::format("{} has no such option", argv[1]),
+                  fmt::format("see airlight {} --help", argv[1]));
+    }
+  }
+}
+
+int run(int argc, char** argv) {
+  Options options;
+  CLI::App app("Light shafts in fog by epipolar voxelized shadow volumes, compared with ray tracing.",
+               "airlight");
+  app.set_version_flag("--version", "airlight " + quality::version());
+  app.require_subcommand(1);
+  app.footer(
+      "Exit status: 0 done, 1 an accuracy asked for was missed, 2 usage, 3 bad input or output file,\n"
+      "4 the driver cannot.");
+
+  CLI::App& render_command = add_image_command(app, options, "render", "renders one image");
+  render_command.add_option("-o", options.output, "the image: OpenEXR; a PNG preview goes beside it")
+      ->type_name("FILE.exr");
+  add_option(render_command, options, {"volume", "METHOD", "airlight (default: vsv)"});
+  add_option(render_command, options, {"surface", "METHOD", "surface shadow (default: shadow-map)"});
+
+  CLI::App& compare_command = add_image_command(
+      app, options, "compare", "measures methods against the reference: time, error, images, report");
+  compare_command
+      .add_option("-o", options.output,
+                  "folder for results.json, report.html and the images (default: out/SCENE)")
+      ->type_name("DIR");
+  add_option(
+      compare_command, options,
+      {"volume", "LIST",
+       "methods of airlight, separated by commas (default: vsv,vsv:integral=riemann,reference-march)"});
+  add_option(compare_command, options,
+             {"surface", "LIST", "methods of surface shadow, separated by commas (default: shadow-map)"});
+  add_option(compare_command, options, {"frames", "N", "frames timed a run, after warm-up (default: 5)"});
+  add_option(compare_command, options,
+             {"max-error", "X", "exit with 1 where a method's airlight has an rrmse above this, as in 0.02"});
+  add_option(compare_command, options,
+             {"json", "FILE", "write the results there too; - means standard output, instead of the table"});
+  std::string methods = "METHOD is NAME:key=value:key=value. Airlight:\n";
+  for (const quality::VolumeMethod& method : quality::volume_methods())
+    methods += fmt::format("  {:<16} {}\n", method.name, method.description);
+  methods += "Surface shadow:\n";
+  for (const quality::SurfaceMethod& method : quality::surface_methods())
+    methods += fmt::format("  {:<16} {}\n", method.name, method.description);
+  render_command.footer(methods);
+  compare_command.footer(methods);
+
+  CLI::App& scenes_command = *app.add_subcommand("scenes", "lists the built-in scenes");
+  CLI::App& info_command = *app.add_subcommand("info", "tells the driver and its limits");
+
+  try {
+    require_known_words(app, argc, argv);
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // help or version
+    throw Error(ExitCode::usage, "command line", error.what(), "see airlight --help");
+  }
+
+  if (render_command.parsed()) {
+    if (options.scene.empty())
+      throw Error(ExitCode::usage, "SCENE", "it is missing",
+                  "name one, as in airlight render window -o out.exr");
+    render(options);
+  } else if (compare_command.parsed()) {
+    if (options.scene.empty()) options.scene = "window";
+    compare(options);
+  } else if (scenes_command.parsed()) {
+    list_scenes();
+  } else if (info_command.parsed()) {
+    print_info();
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace airlight::app
+
+int main(int argc, char** argv) {
+  using airlight::scene::ExitCode;
+  const auto fail = [](const std::string& message, ExitCode code) {
+    airlight::app::say("airlight: " + message);
+    return static_cast<int>(code);
+  };
+  try {
+    return airlight::app::run(argc, argv);
+  } catch (const airlight::scene::Error& error) {
+    return fail(error.what(), error.exit_code);
+  } catch (const std::bad_alloc&) {
+    return fail("memory: there is not enough; ask for a smaller image or grid", ExitCode::driver);
+  }
+}

@@ -1,0 +1,248 @@
+#include "app/options.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "quality/compare.h"
+#include "quality/numbers.h"
+#include "scene/builtin.h"
+#include "scene/error.h"
+#include "scene/import.h"
+
+namespace airlight::app {
+namespace {
+
+using scene::Error;
+using scene::ExitCode;
+
+/// Options that set a key for every method that reads it.
+constexpr auto k_method_keys =
+    std::to_array<std::string_view>({"integral", "populate", "alpha", "theta", "phi"});
+
+Error usage(const std::string& where, const std::string& problem, const std::string& remedy = {}) {
+  return Error(ExitCode::usage, where, problem, remedy);
+}
+
+/// The file formats and built-in scenes that SCENE can name.
+std::string scene_help() {
+  std::string names;
+  for (const scene::BuiltinScene& builtin : scene::builtin_scenes()) {
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", builtin.name);
+  }
+  return fmt::format("use a built-in scene ({}) or a .gltf, .glb or .obj file", names);
+}
+
+struct Loaded {
+  scene::Scene scene;
+  bool is_builtin;
+};
+
+Loaded load_scene(const std::string& name) {
+  if (const scene::BuiltinScene* builtin = scene::find_builtin(name)) return {builtin->make(), true};
+  const std::filesystem::path file(name);
+  if (file.extension() == ".toml" || file.extension() == ".ply") {
+    throw usage(name, fmt::format("{} files are not built yet", file.extension().string()), scene_help());
+  }
+  if (std::error_code error; !file.has_extension() && !std::filesystem::exists(file, error)) {
+    throw Error(ExitCode::bad_file, name, "there is no such scene", scene_help());
+  }
+  return {scene::import_scene(file), false};
+}
+
+/// One of the named things that a scene brings, by name or by number from 0.
+template <typename Thing>
+const Thing& pick(const std::string& option, const std::string& choice, const std::vector<Thing>& things) {
+  for (const Thing& thing : things) {
+    if (thing.name == choice) return thing;
+  }
+  const bool is_number =
+      !choice.empty() && choice.size() < 9 &&
+      std::all_of(choice.begin(), choice.end(), [](char c) { return c >= '0' && c <= '9'; });
+  if (is_number && std::stoul(choice) < things.size()) return things[std::stoul(choice)];
+
+  std::string names;
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", i,
+                         things[i].name.empty() ? "no name" : things[i].name);
+  }
+  throw usage(option, fmt::format("the scene has no '{}'", choice),
+              names.empty() ? "it has none" : "it has " + names);
+}
+
+scene::Camera choose_camera(const Options& options, const scene::Scene& scene) {
+  const auto name = options.get("camera"), eye = options.get("eye"), target = options.get("target");
+  if (eye.has_value() != target.has_value()) {
+    throw usage(eye ? "--eye" : "--target", fmt::format("it needs {}", eye ? "--target" : "--eye"),
+                "give both");
+  }
+  if (name && eye) throw usage("--camera", "--eye and --target contradict it", "give one or the other");
+
+  scene::Camera camera;
+  if (eye) {
+    camera.name = "of --eye and --target";
+    camera.eye = quality::parse_vector("--eye", *eye);
+    camera.target = quality::parse_vector("--target", *target);
+  } else if (name) {
+    camera = pick("--camera", *name, scene.cameras);
+  } else {
+    camera = scene.cameras.empty() ? scene::fit_camera(scene.geometry) : scene.cameras[0];
+  }
+  if (const auto up = options.get("up")) camera.up = quality::parse_vector("--up", *up);
+  if (const auto fov = options.get("fov")) {
+    camera.vertical_fov_degrees = quality::parse_number("--fov", *fov);
+    if (!(camera.vertical_fov_degrees > 0.0 && camera.vertical_fov_degrees < 180.0)) {
+      throw usage("--fov", fmt::format("'{}' is not between 0 and 180 degrees", *fov));
+    }
+  }
+  return camera;
+}
+
+scene::PointLight choose_light(const Options& options, const scene::Scene& scene) {
+  const auto name = options.get("light"), position = options.get("light-position"),
+             intensity = options.get("intensity");
+  if (name && position) throw usage("--light", "--light-position contradicts it", "give one or the other");
+
+  scene::PointLight light;
+  if (position) {
+    if (!intensity)
+      throw usage("--light-position", "it needs --intensity", "give both, as in --intensity 10 [W/sr]");
+    light.name = "of --light-position";
+    light.position = quality::parse_vector("--light-position", *position);
+  } else if (name) {
+    light = pick("--light", *name, scene.lights);
+  } else if (!scene.lights.empty()) {
+    light = scene.lights[0];
+  } else {
+    throw usage(options.scene, "it has no light", "give one with --light-position x,y,z --intensity r,g,b");
+  }
+  if (intensity) light.intensity = quality::parse_colour("--intensity", *intensity);
+  return light;
+}
+
+scene::Medium choose_medium(const Options& options, scene::Medium medium) {
+  if (const auto value = options.get("sigma-s")) medium.sigma_s = quality::parse_colour("--sigma-s", *value);
+  if (const auto value = options.get("sigma-a")) medium.sigma_a = quality::parse_colour("--sigma-a", *value);
+  if (const auto value = options.get("phase")) {
+    using enum scene::PhaseFunction;
+    constexpr auto k_phases = std::to_array({isotropic, rayleigh, henyey_greenstein});
+    const auto found = std::find_if(k_phases.begin(), k_phases.end(), [&](scene::PhaseFunction phase) {
+      return quality::phase_name(phase) == *value;
+    });
+    if (found == k_phases.end()) {
+      throw usage(
+          "--phase",
+          fmt::format("'{}' is {}", *value, *value == "hoffman-preetham" ? "not built yet" : "unknown"),
+          "use isotropic, rayleigh or henyey-greenstein");
+    }
+    medium.phase = *found;
+    if (medium.phase != henyey_greenstein) medium.g = 0.0f;
+  }
+  if (const auto value = options.get("g")) {
+    medium.g = quality::parse_float("--g", *value);
+    if (!(medium.g > -1.0f && medium.g < 1.0f))
+      throw usage("--g", fmt::format("'{}' is not between -1 and 1", *value));
+    if (medium.phase != scene::PhaseFunction::henyey_greenstein) {
+      throw usage("--g", fmt::format("the phase function {} has no g", quality::phase_name(medium.phase)),
+                  "give --phase henyey-greenstein");
+    }
+  }
+  return medium;
+}
+
+/// Gives every triangle the same material.
+void override_albedo(const std::string& text, scene::Geometry& geometry) {
+  const glm::vec3 albedo = quality::parse_colour("--albedo", text);
+  if (std::max({albedo.x, albedo.y, albedo.z}) > 1.0f) {
+    throw usage("--albedo", fmt::format("'{}' is more than 1", text), "a surface reflects at most all light");
+  }
+  geometry.materials = {{albedo}};
+  std::fill(geometry.material_of_triangle.begin(), geometry.material_of_triangle.end(), 0u);
+}
+
+}  // namespace
+
+std::span<const OptionLine> common_options() {
+  static const std::vector<OptionLine> options = [] {
+    std::vector<OptionLine> lines = {
+        {"camera", "NAME|N",
+         "one of the scene's cameras, by name or number from 0 (default: the first; without one, the view is "
+         "fitted)"},
+        {"eye", "X,Y,Z", "where the camera stands [m]; needs --target"},
+        {"target", "X,Y,Z", "a point straight ahead of the camera [m]; needs --eye"},
+        {"up", "X,Y,Z", "the camera's up (default: 0,1,0 with --eye, else the camera's own)"},
+        {"fov", "DEG", "vertical field of view (default: 45 with --eye, else the camera's own)"},
+        {"light", "NAME|N", "one of the scene's lights, by name or number from 0 (default: the first)"},
+        {"light-position", "X,Y,Z", "where the light is [m]; needs --intensity"},
+        {"intensity", "R,G,B", "radiant intensity of the light [W/sr]; one number means grey"},
+        {"sigma-s", "R,G,B",
+         "scattering coefficient [1/m]; one number means grey (default: the scene's, 0.1 for a file)"},
+        {"sigma-a", "R,G,B",
+         "absorption coefficient [1/m]; one number means grey (default: the scene's, 0 for a file)"},
+        {"phase", "NAME",
+         "phase function: isotropic, rayleigh, henyey-greenstein (default: the scene's, isotropic for a "
+         "file)"},
+        {"g", "G", "mean cosine of henyey-greenstein, between -1 and 1"},
+        {"albedo", "R,G,B", "reflectance of every surface, 0 to 1; 0 leaves the airlight alone"},
+        {"size", "WxH", "size of the image [pixels] (default: 512x512)"},
+        {"exposure", "E",
+         "of PNG images: radiance is multiplied by it (default: the scene's; for a file, the 95th percentile "
+         "maps to 0.8)"},
+        {"shadow-map", "N", "side of a face of the shadow map [texels] (default: 2048)"},
+        {"reference-samples", "N", std::string(quality::key("samples").meaning)},
+    };
+    for (std::string_view name : k_method_keys)
+      lines.push_back({name, "VALUE", std::string(quality::key(name).meaning)});
+    return lines;
+  }();
+  return options;
+}
+
+std::string Options::command_line(std::span<const std::string_view> without) const {
+  std::string line = fmt::format("airlight {} {}", command, quality::shell_quote(scene));
+  for (const auto& [name, value] : given) {
+    if (std::find(without.begin(), without.end(), name) != without.end()) continue;
+    line += fmt::format(" --{} {}", name, quality::shell_quote(value));
+  }
+  return line;
+}
+
+Subject make_subject(const Options& options) {
+  // What is wrong with the words is said before a long file is read.
+  const glm::ivec2 size = quality::parse_size("--size", options.get("size").value_or("512x512"));
+  std::optional<float> exposure;
+  if (const auto text = options.get("exposure")) {
+    exposure = quality::parse_float("--exposure", *text);
+    if (*exposure <= 0.0f) throw usage("--exposure", fmt::format("'{}' is not positive", *text));
+  }
+
+  Loaded loaded = load_scene(options.scene);
+  Subject subject{std::move(loaded.scene), {}, exposure};
+  if (!exposure && loaded.is_builtin) subject.exposure = subject.scene.exposure;
+  subject.view = {choose_camera(options, subject.scene), choose_light(options, subject.scene),
+                  choose_medium(options, subject.scene.medium), size};
+  if (const auto text = options.get("albedo")) override_albedo(*text, subject.scene.geometry);
+  scene::validate(subject.view);
+  return subject;
+}
+
+quality::Settings make_settings(const Options& options) {
+  quality::Settings settings;
+  for (std::string_view name : k_method_keys) {
+    if (const auto text = options.get(std::string(name))) {
+      quality::key(name).set(settings, fmt::format("--{}", name), *text);
+    }
+  }
+  settings.samples =
+      quality::parse_count("--reference-samples", options.get("reference-samples").value_or("512"));
+  return settings;
+}
+
+int shadow_map_size(const Options& options) {
+  return quality::parse_count("--shadow-map", options.get("shadow-map").value_or("2048"));
+}
+
+}  // namespace airlight::app

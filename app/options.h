@@ -1,0 +1,59 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "quality/methods.h"
+#include "scene/scene.h"
+
+namespace airlight::app {
+
+/// One option of the command line that takes a value.
+struct OptionLine {
+  std::string_view name;         ///< without the dashes
+  std::string_view placeholder;  ///< what stands for the value in the help
+  std::string help;
+};
+
+/// What `render` and `compare` share.
+std::span<const OptionLine> common_options();
+
+/// The command line of `render` or `compare` as it was typed.
+struct Options {
+  std::string command;  ///< "render" or "compare"
+  std::string scene;    ///< SCENE
+  std::map<std::string, std::string>
+      given;           ///< value of each option that was typed, by its name without dashes
+  std::string output;  ///< -o; empty without
+  bool quiet = false;
+
+  std::optional<std::string> get(const std::string& name) const {
+    const auto found = given.find(name);
+    return found == given.end() ? std::nullopt : std::optional(found->second);
+  }
+
+  /// The command line again, ready for a shell, without -o and the options named.
+  std::string command_line(std::span<const std::string_view> without) const;
+};
+
+/// A scene and what one image shows of it.
+struct Subject {
+  scene::Scene scene;
+  scene::View view;
+  std::optional<float> exposure;  ///< asked for or brought by the scene; else automatic
+};
+
+/// Loads the scene and makes all choices of the view.
+/// @throws scene::Error (usage, bad_file)
+Subject make_subject(const Options& options);
+
+/// What the options say to all methods. @throws scene::Error (usage)
+quality::Settings make_settings(const Options& options);
+
+/// --shadow-map [texels]
+int shadow_map_size(const Options& options);
+
+}  // namespace airlight::app

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "quality/methods.h"
+#include "scene/scene.h"
+
+namespace airlight::app {
+
+/// Makes the folder where it is missing. @throws scene::Error (bad_file) where files cannot be written into
+/// it.
+void require_folder(const std::filesystem::path& folder);
+
+/// @throws scene::Error (bad_file) where the file cannot be written. An existing file is left as it is.
+void require_writable(const std::filesystem::path& file);
+
+/// Data, to standard output. @throws scene::Error (bad_file) where it cannot be written.
+void print(std::string_view text);
+
+/// One line of talk, to standard error, control characters replaced.
+void say(std::string_view line);
+
+/// Says what the importer dropped or could not represent.
+void say_warnings(const scene::ImportReport& report);
+
+/// A line on standard error that follows long work, where that is a terminal.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool quiet);
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  /// Follows this line while it lives; empty where nothing is shown.
+  quality::Progress follower();
+
+ private:
+  bool is_shown_;
+  std::chrono::steady_clock::time_point last_{};
+};
+
+}  // namespace airlight::app

@@ -1,0 +1,88 @@
+#include <array>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "app/commands.h"
+#include "app/output.h"
+#include "frame/frame.h"
+#include "quality/compare.h"
+
+namespace airlight::app {
+namespace {
+
+using scene::Error;
+using scene::ExitCode;
+
+/// The only entry of a list of methods.
+template <typename Choice>
+Choice one(const std::string& option, std::vector<Choice> choices) {
+  if (choices.size() != 1)
+    throw Error(ExitCode::usage, option, "render takes one method", "compare takes several");
+  return std::move(choices[0]);
+}
+
+}  // namespace
+
+void render(const Options& options) {
+  // Everything that can be wrong with the command is found before the driver is woken.
+  const std::filesystem::path output = options.output;
+  if (options.output.empty())
+    throw Error(ExitCode::usage, "-o", "it is missing", "name the image to write, as in -o out.exr");
+  if (output.extension() != ".exr")
+    throw Error(ExitCode::usage, "-o", fmt::format("'{}' does not end in .exr", options.output),
+                "images are OpenEXR, with a PNG preview beside");
+  const quality::Settings settings = make_settings(options);
+  const auto volume =
+      one("--volume", quality::parse_volumes(options.get("volume").value_or("vsv"), settings));
+  const auto surface =
+      one("--surface", quality::parse_surfaces(options.get("surface").value_or("shadow-map"), settings));
+  const int shadow_map = shadow_map_size(options);
+  const Subject subject = make_subject(options);
+  std::filesystem::path preview = output;
+  preview.replace_extension(".png");
+  require_writable(output);
+  require_writable(preview);
+  if (!options.quiet) say_warnings(subject.scene.report);
+
+  frame::FrameImages images;
+  std::string renderer;
+  {
+    ProgressLine progress(options.quiet);
+    gpu::Context context;
+    renderer = context.device().renderer;
+    frame::Frame frame(context, subject.scene.geometry, shadow_map);
+    quality::SharedReference reference(subject.scene.geometry, subject.view, progress.follower());
+    const auto airlight = volume.method->make(context, reference, volume.settings);
+    const auto shadow = surface.method->make(context, reference, surface.settings);
+    gpu::StageTimer off(nullptr);
+    frame.render(subject.view, *shadow, *airlight, off);
+    images = frame.read();
+  }
+  const float exposure = subject.exposure ? *subject.exposure : quality::automatic_exposure(images.radiance);
+
+  std::map<std::string, std::string> configuration = quality::view_options(subject.view);
+  configuration["scene"] = options.scene;
+  configuration["volume"] = volume.spec;
+  configuration["surface"] = surface.spec;
+  for (const auto& [name, value] : volume.values()) configuration[name] = quality::text_of(value);
+  for (const auto& [name, value] : surface.values()) configuration[name] = quality::text_of(value);
+  configuration["shadow-map"] = fmt::format("{}", shadow_map);
+  configuration["exposure"] = fmt::format("{}", exposure);
+  if (const auto albedo = options.get("albedo")) configuration["albedo"] = *albedo;
+  configuration["version"] = quality::version();
+  configuration["renderer"] = renderer;
+  configuration["command"] =
+      fmt::format("{} -o {}", options.command_line({}), quality::shell_quote(options.output));
+  std::map<std::string, std::string> metadata;
+  for (const auto& [name, value] : configuration) metadata["airlight." + name] = value;
+
+  quality::write_exr(output, quality::exr_image(images, metadata));
+  quality::write_png(preview, images.radiance, images.size, exposure);
+  if (!options.quiet) {
+    say(fmt::format("{} and {} written, exposure {:.4g}{}", output.string(), preview.string(), exposure,
+                    subject.exposure ? "" : " (automatic: the 95th percentile maps to 0.8)"));
+  }
+}
+
+}  // namespace airlight::app

@@ -1,0 +1,107 @@
+#include "quality/metrics.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "scene/error.h"
+
+namespace airlight::quality {
+
+namespace {
+
+void require_finite(std::span<const float> image, std::string_view name) {
+  const auto culprit =
+      std::find_if(image.begin(), image.end(), [](float value) { return !std::isfinite(value); });
+  if (culprit == image.end()) return;
+  throw scene::Error(scene::ExitCode::bad_file, fmt::format("{}, value {}", name, culprit - image.begin()),
+                     fmt::format("it is {}", *culprit));
+}
+
+void require_same_length(std::size_t x, std::size_t r) {
+  if (x == r) return;
+  throw scene::Error(scene::ExitCode::bad_file, "images to compare",
+                     fmt::format("{} values against {}", x, r), "give both the same size and channels");
+}
+
+/// An error in units of the mean of the reference; what to make of a black reference is in the header.
+double relative(double error, double reference_mean) {
+  if (error == 0.0) return 0.0;
+  return reference_mean != 0.0 ? error / reference_mean : std::numeric_limits<double>::infinity();
+}
+
+/// The smallest value that at least 99 % of the values do not exceed (nearest rank). Reorders the values.
+double percentile_99(std::vector<double>& values) {
+  const std::size_t rank = (99 * values.size() + 99) / 100;
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(rank - 1);
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+}  // namespace
+
+AirlightError airlight_error(std::span<const float> x, std::span<const float> r) {
+  require_same_length(x.size(), r.size());
+  require_finite(x, "image to judge");
+  require_finite(r, "reference image");
+  if (x.empty()) throw scene::Error(scene::ExitCode::bad_file, "images to compare", "they have no pixels");
+
+  const auto count = static_cast<double>(x.size());
+  double sum_x = 0.0, sum_r = 0.0, sum_squares = 0.0, sum_absolute = 0.0, largest_r = 0.0;
+  std::vector<double> differences(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double difference = static_cast<double>(x[i]) - static_cast<double>(r[i]);
+    differences[i] = std::abs(difference);
+    sum_x += static_cast<double>(x[i]);
+    sum_r += static_cast<double>(r[i]);
+    sum_squares += difference * difference;
+    sum_absolute += std::abs(difference);
+    largest_r = std::max(largest_r, static_cast<double>(r[i]));
+  }
+  const double mean_r = sum_r / count;
+
+  const double epsilon = 1e-2 * mean_r * mean_r;
+  double sum_relative_squares = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (differences[i] == 0.0) continue;  // 0/0 where the reference is black
+    const auto reference = static_cast<double>(r[i]);
+    sum_relative_squares += differences[i] * differences[i] / (reference * reference + epsilon);
+  }
+
+  AirlightError error{};
+  error.bias = relative((sum_x - sum_r) / count, mean_r);
+  error.rmse = std::sqrt(sum_squares / count);
+  error.rrmse = relative(error.rmse, mean_r);
+  error.mae = relative(sum_absolute / count, mean_r);
+  error.p99 = relative(percentile_99(differences), mean_r);
+  error.max = relative(*std::max_element(differences.begin(), differences.end()), mean_r);
+  error.relmse = sum_relative_squares / count;
+  error.psnr =
+      error.rmse == 0.0 ? std::numeric_limits<double>::infinity() : 20.0 * std::log10(largest_r / error.rmse);
+  return error;
+}
+
+SurfaceError surface_error(std::span<const float> visibility, std::span<const float> distance,
+                           std::span<const float> reference_visibility,
+                           std::span<const float> reference_distance) {
+  assert(visibility.size() == distance.size() && reference_visibility.size() == reference_distance.size());
+  require_same_length(visibility.size(), reference_visibility.size());
+  require_finite(visibility, "visibility to judge");
+  require_finite(reference_visibility, "reference visibility");
+  require_finite(distance, "distance to judge");
+  require_finite(reference_distance, "reference distance");
+  SurfaceError error{};
+  for (std::size_t i = 0; i < visibility.size(); ++i) {
+    if (distance[i] == 0.0f || reference_distance[i] == 0.0f) continue;
+    ++error.pixels;
+    if ((visibility[i] >= 0.5f) != (reference_visibility[i] >= 0.5f)) ++error.wrong_pixels;
+  }
+  return error;
+}
+
+}  // namespace airlight::quality

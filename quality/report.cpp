@@ -1,0 +1,204 @@
+#include "quality/report.h"
+
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "quality/compare.h"
+
+namespace airlight::quality {
+namespace {
+
+std::string escape(const std::string& text) {
+  std::string escaped;
+  for (char c : text) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
+/// A file name as a link: names hold what the user typed.
+std::string link(const std::string& file) {
+  std::string url;
+  for (char c : file) {
+    const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) ||
+                          std::string_view("-_.").find(c) != std::string_view::npos;
+    url += is_plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return url;
+}
+
+std::string cell(const std::string& text) {
+  return "<td>" + escape(text) + "</td>";
+}
+
+std::string percent(double value, const char* sign = "") {
+  if (!std::isfinite(value)) return "inf";
+  return *sign ? fmt::format("{:+.3f}", 100.0 * value) : fmt::format("{:.3g}", 100.0 * value);
+}
+
+constexpr const char* k_style = R"(<style>
+body { font: 15px/1.5 system-ui, sans-serif; color: #222; max-width: 1200px; margin: 2em auto; padding: 0 1em; }
+h1 { font-size: 1.6em; } h2 { font-size: 1.2em; margin-top: 2em; } h3 { font-size: 1em; margin: 0 0 .3em; }
+.scroll { overflow-x: auto; }
+table { border-collapse: collapse; }
+th, td { padding: .25em .8em; border-bottom: 1px solid #ddd; text-align: right; white-space: nowrap; }
+th.name, td:nth-child(1), td:nth-child(2) { text-align: left; }
+thead th { border-bottom: 2px solid #888; }
+dl { display: grid; grid-template-columns: max-content 1fr; gap: .2em 1em; } dt { font-weight: 600; } dd { margin: 0; }
+.run { border-top: 1px solid #ddd; padding: 1.2em 0; }
+.images { display: flex; flex-wrap: wrap; gap: 1em; }
+figure { margin: 0; flex: 1 1 300px; max-width: 560px; } figure img { width: 100%; image-rendering: pixelated; background: #000; }
+figcaption { font-size: .85em; color: #555; }
+code { display: block; overflow-x: auto; background: #f4f4f4; padding: .4em .7em; font-size: .85em; white-space: pre; }
+.scale { height: .8em; max-width: 560px; background: linear-gradient(90deg, rgb(0,63,188), #fff 50%, rgb(188,0,0)); border: 1px solid #ccc; }
+.ends { display: flex; justify-content: space-between; max-width: 560px; font-size: .85em; color: #555; }
+</style>
+)";
+
+constexpr const char* k_definitions = R"(<dl>
+<dt>frame [ms]</dt><dd>Wall-clock time of a whole frame from the first draw until the GPU is done, file writing left out: median over the
+frames in the next column, after one frame of warm-up. Where the first frame took more than 2 s it is the only one.</dd>
+<dt>march/frame</dt><dd>Frame time of the fastest <em>reference-march</em> row, divided by this row's frame time.</dd>
+<dt>Mrays/s</dt><dd>Occlusion rays for airlight, in millions, per second of tracing and integrating on all cores.</dd>
+<dt>rrmse [%]</dt><dd>sqrt(mean((x − r)²)) / mean(r), over all channels of all pixels of the airlight: x this run's, r the reference's.
+“&lt;” marks an error that is not above the reference's own uncertainty.</dd>
+<dt>bias [%]</dt><dd>mean(x) / mean(r) − 1.</dd>
+<dt>mae, p99, max [%]</dt><dd>Mean, 99th percentile and largest value of |x − r|, divided by mean(r).</dd>
+<dt>relmse</dt><dd>mean((x − r)² / (r² + ε)), ε = 0.01 · mean(r)²; no unit.</dd>
+<dt>wrong pixels</dt><dd>Surface shadow: pixels lit in one image and dark in the other, of those where both see a surface, against one
+shadow ray a pixel.</dd>
+<dt>memory [MiB]</dt><dd>GPU memory of scene, shadow map and method.</dd>
+<dt>stages [ms]</dt><dd>Medians over frames in which the GPU is finished around each stage; their sum can exceed the frame time.</dd>
+</dl>
+)";
+
+std::string results_rows(const Comparison& comparison) {
+  std::string html;
+  for (const Run& run : comparison.runs) {
+    const AirlightError& error = run.airlight_error;
+    std::int64_t bytes = 0;
+    for (const auto& entry : run.bytes) bytes += entry.second;
+    html += "<tr>" + cell(run.volume) + cell(run.surface) + cell(fmt::format("{:.2f}", run.frame_ms)) +
+            cell(fmt::format("{}", run.frames)) +
+            cell(run.march_ratio > 0.0 ? fmt::format("{:.2f}", run.march_ratio) : "–") +
+            cell(run.rays > 0 ? fmt::format("{:.2f}", run.mrays_per_s) : "–") +
+            cell(error_text(error.rrmse, comparison.truth.self_error)) + cell(percent(error.bias, "+")) +
+            cell(percent(error.mae)) + cell(percent(error.p99)) + cell(percent(error.max)) +
+            cell(fmt::format("{:.3g}", error.relmse)) +
+            cell(fmt::format("{} / {}", run.surface_error.wrong_pixels, run.surface_error.pixels)) +
+            cell(fmt::format("{:.1f}", static_cast<double>(bytes) / (1 << 20))) + "</tr>\n";
+  }
+  return html;
+}
+
+std::string stages_table(const Comparison& comparison) {
+  std::set<std::string> stages;
+  for (const Run& run : comparison.runs) {
+    for (const auto& entry : run.stages_ms) stages.insert(entry.first);
+  }
+  std::string html = "<table><thead><tr><th class=\"name\">volume</th><th class=\"name\">surface</th>";
+  for (const std::string& stage : stages) html += "<th>" + escape(stage) + "</th>";
+  html += "</tr></thead><tbody>\n";
+  for (const Run& run : comparison.runs) {
+    html += "<tr>" + cell(run.volume) + cell(run.surface);
+    for (const std::string& stage : stages) {
+      const auto found = run.stages_ms.find(stage);
+      html += cell(found == run.stages_ms.end() ? "–" : fmt::format("{:.2f}", found->second));
+    }
+    html += "</tr>\n";
+  }
+  return html + "</tbody></table>\n";
+}
+
+std::string figure(const std::string& file, const std::string& caption) {
+  return fmt::format(
+      "<figure><a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\"></a><figcaption>{1}</figcaption></figure>\n",
+      link(file), escape(caption));
+}
+
+std::string run_section(const Run& run) {
+  std::string settings;
+  for (const auto& [name, value] : run.settings) {
+    settings += fmt::format("{}{}={}", settings.empty() ? "" : ", ", name, text_of(value));
+  }
+  return fmt::format("<section class=\"run\"><h3>{} × {}</h3>\n<p>{}</p><div class=\"images\">\n",
+                     escape(run.volume), escape(run.surface), escape(settings)) +
+         figure(run.name + ".png", "radiance") + figure("reference.png", "radiance, reference") +
+         figure(run.name + "_error.png", "airlight error, scale as above") +
+         fmt::format("</div>\n<code>{}</code></section>\n", escape(run.command));
+}
+
+}  // namespace
+
+std::string report_html(const Comparison& comparison) {
+  const Truth& truth = comparison.truth;
+  const scene::View& view = comparison.view;
+  std::string html = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<title>Airlight: "
+      "{0}</title>\n{1}</head><body>\n"
+      "<h1>Airlight: {0}</h1>\n",
+      escape(comparison.scene), k_style);
+
+  // What was compared, where, and with what.
+  html += fmt::format(
+      "<dl><dt>scene</dt><dd>{}, {} triangles, {} of zero area dropped</dd>\n<dt>image</dt><dd>{} × {} "
+      "pixels</dd>\n"
+      "<dt>camera</dt><dd>eye {} m, target {} m, up {}, {}° vertical</dd>\n"
+      "<dt>light</dt><dd>at {} m, {} W/sr</dd>\n<dt>medium</dt><dd>σ_s {} /m, σ_a {} /m, {}, g = {}</dd>\n"
+      "<dt>device</dt><dd>{}, OpenGL {}, {} CPU cores; airlight {}</dd>\n"
+      "<dt>reference</dt><dd>Embree ray tracing, {} samples a view ray, every change of visibility bisected: "
+      "{:.1f} million rays in "
+      "{:.0f} ms; own uncertainty {:.3g} % rrmse (against half as many samples); mean airlight {:.4g} W/(m² "
+      "sr)</dd>\n"
+      "<dt>exposure</dt><dd>{} of the PNG images{}; the EXR images hold radiance</dd>\n</dl>\n",
+      escape(comparison.scene), comparison.triangles, comparison.report.degenerate_triangles, view.size.x,
+      view.size.y, text_of(view.camera.eye), text_of(view.camera.target), text_of(view.camera.up),
+      view.camera.vertical_fov_degrees, text_of(view.light.position), text_of(view.light.intensity),
+      text_of(view.medium.sigma_s), text_of(view.medium.sigma_a), phase_name(view.medium.phase),
+      view.medium.g, escape(comparison.device.renderer), escape(comparison.device.version), comparison.cores,
+      version(), truth.samples, static_cast<double>(truth.rays) * 1e-6, truth.ms, 100.0 * truth.self_error,
+      truth.mean_airlight, comparison.exposure.value,
+      comparison.exposure.is_automatic
+          ? ", chosen so that the 95th percentile of the reference maps to 0.8 of white, linear"
+          : "");
+  for (const std::string& warning : comparison.report.warnings) {
+    html += "<p>Warning: " + escape(warning) + "</p>\n";
+  }
+
+  html +=
+      "<h2>Time and error</h2>\n<div class=\"scroll\"><table><thead><tr><th class=\"name\">volume</th>"
+      "<th class=\"name\">surface</th><th>frame [ms]</th><th>frames</th><th>march/frame</th><th>Mrays/s</th>"
+      "<th>rrmse [%]</th><th>bias [%]</th><th>mae [%]</th><th>p99 [%]</th><th>max [%]</th><th>relmse</th>"
+      "<th>wrong pixels</th><th>memory [MiB]</th></tr></thead><tbody>\n" +
+      results_rows(comparison) + "</tbody></table></div>\n";
+  html += "<h2>Stages [ms]</h2>\n<div class=\"scroll\">" + stages_table(comparison) + "</div>\n";
+  html += std::string("<h2>What the numbers mean</h2>\n") + k_definitions;
+
+  html += fmt::format(
+      "<h2>Images</h2>\n<p>Error maps: (x − r) / mean(r) of the airlight, averaged over RGB; blue where it "
+      "is too dark, red where it is "
+      "too bright, logarithmic, white below {0:g} %.</p>\n<div class=\"scale\"></div>"
+      "<div class=\"ends\"><span>−{1:g} %</span><span>±{0:g} %</span><span>+{1:g} %</span></div>\n",
+      100.0 * k_error_white, 100.0 * k_error_full);
+  for (const Run& run : comparison.runs) html += run_section(run);
+  return html + "</body></html>\n";
+}
+
+}  // namespace airlight::quality

@@ -1,0 +1,252 @@
+#include "quality/results.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "scene/error.h"
+
+namespace airlight::quality {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A relative figure; JSON has no infinity, which is what an error against a black reference is.
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json vector(glm::dvec3 v) {
+  return {v.x, v.y, v.z};
+}
+
+/// Single-precision values with the digits they have, not those of their conversion to double.
+Json vector(glm::vec3 v) {
+  return {std::stod(fmt::format("{}", v.x)), std::stod(fmt::format("{}", v.y)),
+          std::stod(fmt::format("{}", v.z))};
+}
+
+Json single(float value) {
+  return std::stod(fmt::format("{}", value));
+}
+
+Json view_json(const scene::View& view) {
+  const scene::Camera& camera = view.camera;
+  return {{"size", {view.size.x, view.size.y}},
+          {"camera",
+           {{"name", camera.name},
+            {"eye", vector(camera.eye)},
+            {"target", vector(camera.target)},
+            {"up", vector(camera.up)},
+            {"fov", camera.vertical_fov_degrees}}},
+          {"light",
+           {{"name", view.light.name},
+            {"position", vector(view.light.position)},
+            {"intensity", vector(view.light.intensity)}}},
+          {"medium",
+           {{"sigma_s", vector(view.medium.sigma_s)},
+            {"sigma_a", vector(view.medium.sigma_a)},
+            {"phase", phase_name(view.medium.phase)},
+            {"g", single(view.medium.g)}}}};
+}
+
+Json run_json(const Run& run) {
+  Json settings = Json::object();
+  for (const auto& [name, value] : run.settings) {
+    std::visit([&, &key = name](const auto& v) { settings[key] = v; }, value);
+  }
+  const AirlightError& error = run.airlight_error;
+  Json json = {
+      {"volume", run.volume},
+      {"surface", run.surface},
+      {"name", run.name},
+      {"settings", settings},
+      {"command", run.command},
+      {"stages_ms", run.stages_ms},
+      {"frame_ms", run.frame_ms},
+      {"frames", run.frames},
+      {"bytes", run.bytes},
+      {"error",
+       {{"airlight",
+         {{"bias", number(error.bias)},
+          {"rmse", number(error.rmse)},
+          {"rrmse", number(error.rrmse)},
+          {"mae", number(error.mae)},
+          {"p99", number(error.p99)},
+          {"max", number(error.max)},
+          {"relmse", number(error.relmse)}}},
+        {"surface",
+         {{"wrong_pixels", run.surface_error.wrong_pixels}, {"pixels", run.surface_error.pixels}}}}}};
+  if (run.rays > 0) {
+    json["rays"] = run.rays;
+    json["mrays_per_s"] = run.mrays_per_s;
+  }
+  if (run.march_ratio > 0.0) json["march_ratio"] = run.march_ratio;
+  return json;
+}
+
+/// Lays out rows of cells: the first `left` columns to the left, the others to the right.
+std::string layout(const std::vector<std::vector<std::string>>& rows, std::size_t left) {
+  std::vector<std::size_t> widths(rows[0].size());
+  for (const auto& row : rows) {
+    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
+  }
+  std::string text;
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      if (c > 0) line += "  ";
+      line += c < left ? fmt::format("{:<{}}", row[c], widths[c]) : fmt::format("{:>{}}", row[c], widths[c]);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string version() {
+  return AIRLIGHT_VERSION;
+}
+
+std::string text_of(glm::dvec3 v) {
+  return fmt::format("{},{},{}", v.x, v.y, v.z);
+}
+
+std::string text_of(glm::vec3 v) {
+  return fmt::format("{},{},{}", v.x, v.y, v.z);
+}
+
+std::string text_of(const Value& value) {
+  return std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
+}
+
+std::string phase_name(scene::PhaseFunction phase) {
+  switch (phase) {
+    case scene::PhaseFunction::isotropic:
+      return "isotropic";
+    case scene::PhaseFunction::rayleigh:
+      return "rayleigh";
+    case scene::PhaseFunction::henyey_greenstein:
+      return "henyey-greenstein";
+  }
+  return {};
+}
+
+std::map<std::string, std::string> view_options(const scene::View& view) {
+  return {{"size", fmt::format("{}x{}", view.size.x, view.size.y)},
+          {"eye", text_of(view.camera.eye)},
+          {"target", text_of(view.camera.target)},
+          {"up", text_of(view.camera.up)},
+          {"fov", fmt::format("{}", view.camera.vertical_fov_degrees)},
+          {"light-position", text_of(view.light.position)},
+          {"intensity", text_of(view.light.intensity)},
+          {"sigma-s", text_of(view.medium.sigma_s)},
+          {"sigma-a", text_of(view.medium.sigma_a)},
+          {"phase", phase_name(view.medium.phase)},
+          {"g", fmt::format("{}", view.medium.g)}};
+}
+
+std::string error_text(double rrmse, double self_error) {
+  if (!std::isfinite(rrmse)) return "inf";
+  if (rrmse == 0.0 && self_error == 0.0) return "0";
+  if (rrmse <= self_error) return fmt::format("< {:.3g}", 100.0 * self_error);
+  return fmt::format("{:.3g}", 100.0 * rrmse);
+}
+
+std::string results_json(const Comparison& comparison) {
+  Json runs = Json::array();
+  for (const Run& run : comparison.runs) runs.push_back(run_json(run));
+  const Json json = {
+      {"airlight", version()},
+      {"scene",
+       {{"name", comparison.scene},
+        {"triangles", comparison.triangles},
+        {"degenerate_triangles", comparison.report.degenerate_triangles},
+        {"warnings", comparison.report.warnings}}},
+      {"view", view_json(comparison.view)},
+      {"shadow_map", comparison.shadow_map_size},
+      {"exposure",
+       {{"value", single(comparison.exposure.value)}, {"automatic", comparison.exposure.is_automatic}}},
+      {"device",
+       {{"renderer", comparison.device.renderer},
+        {"version", comparison.device.version},
+        {"cores", comparison.cores}}},
+      {"reference",
+       {{"samples", comparison.truth.samples},
+        {"self_error", number(comparison.truth.self_error)},
+        {"ms", comparison.truth.ms},
+        {"rays", comparison.truth.rays},
+        {"mean_airlight", comparison.truth.mean_airlight}}},
+      {"runs", runs}};
+  // File names need not be UTF-8; JSON must be.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string results_table(const Comparison& comparison) {
+  const Truth& truth = comparison.truth;
+  std::string text =
+      fmt::format("{}, {}x{} pixels, {} triangles; {}, {} cores\n", comparison.scene, comparison.view.size.x,
+                  comparison.view.size.y, comparison.triangles, comparison.device.renderer, comparison.cores);
+  text +=
+      fmt::format("reference: {} samples, {:.1f} Mrays in {:.0f} ms, own uncertainty {:.3g} % rrmse\n\n",
+                  truth.samples, static_cast<double>(truth.rays) * 1e-6, truth.ms, 100.0 * truth.self_error);
+
+  // What each run cost and how far off it is.
+  std::vector<std::vector<std::string>> rows = {
+      {"volume", "surface", "frame ms", "march/frame", "Mrays/s", "rrmse %", "bias %", "p99 %", "wrong px"}};
+  for (const Run& run : comparison.runs) {
+    const AirlightError& error = run.airlight_error;
+    rows.push_back({run.volume, run.surface, fmt::format("{:.2f}", run.frame_ms),
+                    run.march_ratio > 0.0 ? fmt::format("{:.2f}", run.march_ratio) : "-",
+                    run.rays > 0 ? fmt::format("{:.2f}", run.mrays_per_s) : "-",
+                    error_text(error.rrmse, truth.self_error), fmt::format("{:+.3f}", 100.0 * error.bias),
+                    fmt::format("{:.3g}", 100.0 * error.p99),
+                    fmt::format("{}", run.surface_error.wrong_pixels)});
+  }
+  text += layout(rows, 2);
+
+  // Where the time of each goes.
+  std::set<std::string> stages;
+  for (const Run& run : comparison.runs) {
+    for (const auto& [stage, ms] : run.stages_ms) stages.insert(stage);
+  }
+  rows.assign(1, std::vector<std::string>{"volume", "surface"});
+  for (const std::string& stage : stages) rows[0].push_back(stage + " ms");
+  for (const Run& run : comparison.runs) {
+    rows.push_back({run.volume, run.surface});
+    for (const std::string& stage : stages) {
+      const auto found = run.stages_ms.find(stage);
+      rows.back().push_back(found == run.stages_ms.end() ? "-" : fmt::format("{:.2f}", found->second));
+    }
+  }
+  text += '\n';
+  text += layout(rows, 2);
+
+  const std::size_t pixels = comparison.runs.empty() ? 0 : comparison.runs[0].surface_error.pixels;
+  text += fmt::format(
+      "\n"
+      "frame ms: median of whole frames, GPU finished. Stages: medians, the GPU finished around each.\n"
+      "march/frame: frame time of the fastest reference-march / this frame time. Mrays/s: shadow rays for "
+      "airlight.\n"
+      "rrmse, bias, p99: airlight against the reference, in % of its mean ({:.4g} W/(m2 sr)). < marks what "
+      "is not\n"
+      "above the reference's own uncertainty. wrong px: surface pixels lit where the reference is dark or "
+      "the other\n"
+      "way round, of {} that both see.\n",
+      truth.mean_airlight, pixels);
+  return text;
+}
+
+void write_text(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream stream(file, std::ios::binary);
+  stream << text << std::flush;
+  if (!stream) throw scene::Error(scene::ExitCode::bad_file, file.string(), "it cannot be written");
+}
+
+}  // namespace airlight::quality

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gpu/context.h"
+#include "quality/methods.h"
+#include "quality/metrics.h"
+#include "scene/scene.h"
+
+namespace airlight::quality {
+
+/// One volume method with one surface method, timed and judged. See docs/results.schema.json for the unit of
+/// each.
+struct Run {
+  std::string volume, surface;  ///< specs, as the user wrote them
+  std::string name;             ///< stem of its images' file names
+  std::map<std::string, Value> settings;
+  std::string command;     ///< repeats this run
+  bool is_judged = false;  ///< whether --max-error applies to its airlight
+  std::map<std::string, double> stages_ms;
+  double frame_ms = 0.0;
+  int frames = 0;
+  std::map<std::string, std::int64_t> bytes;
+  std::uint64_t rays = 0;    ///< 0 for a method that traces none
+  double mrays_per_s = 0.0;  ///< 0 for a method that traces none
+  double march_ratio = 0.0;  ///< frame time of the fastest reference-march / frame_ms; 0 when none was run
+  AirlightError airlight_error{};
+  SurfaceError surface_error{};
+};
+
+/// The truth that the runs of a comparison are judged by.
+struct Truth {
+  int samples = 0;
+  double self_error = 0.0;  ///< rrmse against half as many samples
+  double ms = 0.0;          ///< of tracing and integrating
+  std::uint64_t rays = 0;
+  double mean_airlight = 0.0;  ///< over pixels and channels [W/(m² sr)]
+};
+
+struct Exposure {
+  float value = 1.0f;
+  bool is_automatic = false;  ///< chosen by `automatic_exposure`
+};
+
+/// What `airlight compare` found.
+struct Comparison {
+  std::string scene;  ///< as the user named it
+  std::size_t triangles = 0;
+  scene::ImportReport report;
+  scene::View view;
+  int shadow_map_size = 0;
+  Exposure exposure;
+  gpu::Device device;
+  unsigned cores = 0;
+  Truth truth;
+  std::vector<Run> runs;
+};
+
+/// The program's version.
+std::string version();
+
+/// The comparison as results.json.
+std::string results_json(const Comparison& comparison);
+
+/// The comparison as a table for a terminal, each figure with its unit and what it was compared with.
+std::string results_table(const Comparison& comparison);
+
+/// A relative airlight error in percent; one that is not above the truth's own uncertainty reads "< that".
+std::string error_text(double rrmse, double self_error);
+
+/// The shortest decimal numbers that read back the same, separated by commas.
+std::string text_of(glm::dvec3 value);
+std::string text_of(glm::vec3 value);
+std::string text_of(const Value& value);
+
+/// The name of a phase function, as --phase takes it.
+std::string phase_name(scene::PhaseFunction phase);
+
+/// Every choice of a view under the name of the option that makes it.
+std::map<std::string, std::string> view_options(const scene::View& view);
+
+/// @throws scene::Error (bad_file) when the file cannot be written to the end
+void write_text(const std::filesystem::path& file, const std::string& text);
+
+}  // namespace airlight::quality

@@ -1,0 +1,95 @@
+#include "reference/fog_quadrature.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "reference/phase.h"
+
+// The integrand exp(−σ D (cos α + sin α cot(ψ/2))) p(−cos ψ) is smooth on every scale but three: the optical
+// depth may grow fast, it grows without bound as ψ → 0, and the lobe of a Henyey-Greenstein phase function is
+// 1 − |g| wide. Panels that are no longer than each of these scales, measured where the panel begins, leave
+// Gauss–Legendre quadrature an error near rounding.
+
+namespace airlight::reference {
+
+namespace {
+
+/// Optical depth that one panel may span: 8 nodes integrate e^{−x} over it to 1e-9.
+constexpr double k_panel_depth = 6.0;
+/// Light this much deeper than at the eye is left out: e^{−60} of the unshadowed airlight.
+constexpr double k_depth_range = 60.0;
+/// The last part of an endless ray that is left out, relative to ψ at the eye; the integrand is bounded
+/// there.
+constexpr double k_psi_range = 1e-9;
+
+struct Node {
+  double x, weight;
+};
+
+// Abramowitz and Stegun, Handbook of Mathematical Functions (1964), table 25.4; the nodes at ±x.
+constexpr std::array<Node, 1> k_gauss_2{{{0.5773502691896257, 1.0}}};
+constexpr std::array<Node, 2> k_gauss_4{
+    {{0.3399810435848563, 0.6521451548625461}, {0.8611363115940526, 0.3478548451374538}}};
+constexpr std::array<Node, 4> k_gauss_8{{{0.1834346424956498, 0.3626837833783620},
+                                         {0.5255324099163290, 0.3137066458778873},
+                                         {0.7966664774136267, 0.2223810344533745},
+                                         {0.9602898564975363, 0.1012285362903763}}};
+
+template <std::size_t Half, class Function>
+double gauss_legendre(const std::array<Node, Half>& rule, double from, double to, const Function& f) {
+  const double middle = 0.5 * (from + to), half = 0.5 * (from - to);
+  double sum = 0.0;
+  for (const Node& node : rule) sum += node.weight * (f(middle - half * node.x) + f(middle + half * node.x));
+  return half * sum;
+}
+
+}  // namespace
+
+FogQuadrature::FogQuadrature(const ViewRay& ray, double sigma_t, scene::PhaseFunction function, double g)
+    : function_(function),
+      g_(function == scene::PhaseFunction::henyey_greenstein ? g : 0.0),
+      depth_scale_(sigma_t * ray.D * ray.sin_alpha),
+      depth_offset_(sigma_t * ray.D * ray.cos_alpha),
+      deepest_(sigma_t * ray.D + k_depth_range),
+      smallest_psi_(k_psi_range * ray.psi_eye) {}
+
+double FogQuadrature::integrand(double psi) const {
+  const double optical_depth = depth_offset_ + depth_scale_ / std::tan(0.5 * psi);  // view_ray.h (3)
+  return std::exp(-optical_depth) * phase(function_, g_, -std::cos(psi));
+}
+
+double FogQuadrature::panel_end(double psi, double optical_depth) const {
+  const double by_distance = 0.5 * psi;
+  const double cotangent = (optical_depth + k_panel_depth - depth_offset_) / depth_scale_;
+  const double by_depth = 2.0 * std::atan(1.0 / cotangent);
+  // A backward lobe lies at ψ = 0, where panels shrink anyway.
+  const double by_lobe = g_ > 0.0 ? psi - std::hypot(std::numbers::pi - psi, 1.0 - g_) : 0.0;
+  return std::max({by_distance, cotangent > 0.0 ? by_depth : 0.0, by_lobe});
+}
+
+double FogQuadrature::integral(double psi_from, double psi_to) const {
+  const auto f = [this](double psi) { return integrand(psi); };
+  double sum = 0.0;
+  double psi = psi_from;
+  while (psi > psi_to && psi > smallest_psi_) {
+    const double optical_depth = depth_offset_ + depth_scale_ / std::tan(0.5 * psi);
+    if (!(optical_depth < deepest_)) break;
+    const double longest = psi - panel_end(psi, optical_depth);
+    const double length = std::min(longest, psi - psi_to);
+    const double next = length < longest ? psi_to : psi - longest;
+    // Short lit runs between many shadows are common, and need few nodes.
+    if (length < longest / 64.0) {
+      sum += gauss_legendre(k_gauss_2, psi, next, f);
+    } else if (length < longest / 8.0) {
+      sum += gauss_legendre(k_gauss_4, psi, next, f);
+    } else {
+      sum += gauss_legendre(k_gauss_8, psi, next, f);
+    }
+    psi = next;
+  }
+  return sum;
+}
+
+}  // namespace airlight::reference

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "reference/reference.h"
+
+namespace airlight::reference {
+
+/// Works on the rows of an image on every core, and returns when all are done.
+///
+/// @param make_worker called once on each thread; returns the callable `void(int row)` that this thread
+/// applies to its rows, with whatever scratch memory it keeps
+/// @param progress told the fraction of rows done, on the calling thread only, which works too
+/// The first exception of any thread ends the work and is rethrown.
+template <class MakeWorker>
+void parallel_rows(int rows, const MakeWorker& make_worker, const Progress& progress) {
+  std::atomic<int> next_row{0};
+  std::atomic<int> rows_done{0};
+  std::exception_ptr error;
+  std::mutex error_mutex;
+
+  const auto work = [&](const Progress& report) {
+    try {
+      auto worker = make_worker();
+      for (int row = next_row++; row < rows; row = next_row++) {
+        worker(row);
+        const int done = ++rows_done;
+        if (report) report(static_cast<double>(done) / rows);
+      }
+    } catch (...) {
+      next_row = rows;
+      const std::scoped_lock lock(error_mutex);
+      if (!error) error = std::current_exception();
+    }
+  };
+
+  {
+    std::vector<std::jthread> helpers;
+    const int helper_count = std::min(static_cast<int>(std::thread::hardware_concurrency()), rows) - 1;
+    for (int i = 0; i < helper_count; ++i) helpers.emplace_back([&] { work({}); });
+    work(progress);
+  }
+  if (error) std::rethrow_exception(error);
+  if (progress) progress(1.0);
+}
+
+}  // namespace airlight::reference

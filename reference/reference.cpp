@@ -1,0 +1,59 @@
+#include "reference/reference.h"
+
+#include "reference/parallel.h"
+#include "reference/state.h"
+
+namespace airlight::reference {
+
+glm::dvec3 Reference::State::pixel_direction(int x, int y) const {
+  const double across = (2.0 * (x + 0.5) / view.size.x - 1.0) * camera.half_width;
+  const double upward = (1.0 - 2.0 * (y + 0.5) / view.size.y) * camera.half_height;
+  return glm::normalize(camera.forward + across * camera.right + upward * camera.up);
+}
+
+ViewRay Reference::State::view_ray(int x, int y) const {
+  const glm::dvec3 direction = pixel_direction(x, y);
+  return make_view_ray(eye, direction, camera.right, visibility.first_hit(direction).distance, quarter_pixel);
+}
+
+glm::dvec3 Reference::State::airlight_scale(const ViewRay& ray) const {
+  return glm::dvec3(view.medium.sigma_s) * glm::dvec3(view.light.intensity) / (ray.D * ray.sin_alpha);
+}
+
+Reference::Reference(const scene::Geometry& geometry, const scene::View& view) {
+  scene::validate(view);
+  const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
+  // The tangent size of a pixel at the image's centre stands for its angle.
+  const double pixel = 2.0 * camera.half_height / view.size.y;
+  state_.reset(new State{.view = view,
+                         .camera = camera,
+                         .visibility = Visibility(geometry, view.light.position, camera.eye),
+                         .eye = camera.eye - view.light.position,
+                         .quarter_pixel = 0.25 * pixel});
+}
+
+Reference::~Reference() = default;
+Reference::Reference(Reference&&) noexcept = default;
+Reference& Reference::operator=(Reference&&) noexcept = default;
+
+SurfaceImage Reference::surfaces(const Progress& progress) const {
+  const State& state = *state_;
+  SurfaceImage image{.distance = std::vector<float>(state.pixels()),
+                     .visibility = std::vector<float>(state.pixels())};
+  const auto make_worker = [&] {
+    return [&](int y) {
+      for (int x = 0; x < state.view.size.x; ++x) {
+        const glm::dvec3 direction = state.pixel_direction(x, y);
+        const Visibility::Hit hit = state.visibility.first_hit(direction);
+        if (hit.distance == 0.0) continue;
+        const glm::dvec3 point = state.eye + hit.distance * direction;
+        image.distance[state.index(x, y)] = static_cast<float>(hit.distance);
+        image.visibility[state.index(x, y)] = state.visibility.surface_lit(point) ? 1.0f : 0.0f;
+      }
+    };
+  };
+  parallel_rows(state.view.size.y, make_worker, progress);
+  return image;
+}
+
+}  // namespace airlight::reference

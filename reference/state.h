@@ -1,0 +1,33 @@
+#pragma once
+
+#include "reference/reference.h"
+#include "reference/view_ray.h"
+#include "reference/visibility.h"
+#include "scene/scene.h"
+
+namespace airlight::reference {
+
+/// What `Reference` keeps: the view, and the triangles around its light.
+struct Reference::State {
+  scene::View view;
+  scene::CameraFrame camera;
+  Visibility visibility;
+  glm::dvec3 eye;        ///< relative to the light [m]
+  double quarter_pixel;  ///< the smallest α [rad]
+
+  /// Unit direction through the centre of a pixel.
+  glm::dvec3 pixel_direction(int x, int y) const;
+
+  /// The view ray of a pixel, up to its first surface.
+  ViewRay view_ray(int x, int y) const;
+
+  /// σ_s I / (D sin α): what the integral over φ is multiplied with, RGB.
+  glm::dvec3 airlight_scale(const ViewRay& ray) const;
+
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(view.size.x) + static_cast<std::size_t>(x);
+  }
+  std::size_t pixels() const { return index(0, view.size.y); }
+};
+
+}  // namespace airlight::reference

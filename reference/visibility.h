@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "reference/reference.h"
+#include "scene/scene.h"
+
+namespace airlight::reference {
+
+/// Light rays that are traced together: neighbours along one view ray, so that they form a fan.
+struct LightRays {
+  static constexpr int k_count = 16;
+  alignas(64) float direction_x[k_count];  ///< unit direction away from the light
+  alignas(64) float direction_y[k_count];
+  alignas(64) float direction_z[k_count];
+  alignas(64) float length[k_count];  ///< from the light to the sample [m]
+};
+
+/// Which points the light sees: rays cast by Embree through triangles held relative to the light.
+///
+/// Light rays start at the light, so that all the rays of a view ray share their origin and descend the
+/// hierarchy together. They leave out the first `k_light_clearance` of the distance from eye to light: a
+/// light on a surface does not shadow itself, and occluders nearer to the light than this are not seen.
+/// Embree's robust mode lets no ray through the edge between two triangles.
+class Visibility {
+ public:
+  /// Relative to the distance from eye to light.
+  static constexpr double k_light_clearance = 1e-5;
+
+  /// @param light, eye world space [m]
+  /// @throws scene::Error (driver) when Embree fails
+  Visibility(const scene::Geometry& geometry, const glm::dvec3& light, const glm::dvec3& eye);
+  ~Visibility();
+  Visibility(Visibility&&) noexcept;
+  Visibility& operator=(Visibility&&) noexcept;
+
+  struct Hit {
+    double distance;         ///< from the eye [m]; 0 for none
+    std::uint32_t triangle;  ///< index into the geometry
+  };
+  /// The first surface along the view ray of that unit direction.
+  Hit first_hit(const glm::dvec3& direction) const;
+
+  /// Whether nothing lies between the light and a point of `triangle`.
+  ///
+  /// The side that faces the light does not matter: a lone triangle is lit on both sides. A triangle in whose
+  /// plane the point lies (to 1e-6 of the distances involved) casts no shadow on it, which rids the surface,
+  /// its coplanar neighbours, and surfaces seen edge-on by the light of shadows on themselves without any
+  /// offset along the ray.
+  /// @param point relative to the light [m]
+  bool surface_lit(const glm::dvec3& point) const;
+
+  /// Bit i is set where ray i of the first `count` reaches its sample.
+  std::uint32_t lit(const LightRays& rays, int count, RayMode mode) const;
+
+ private:
+  struct Embree;
+  std::unique_ptr<Embree> embree_;
+};
+
+}  // namespace airlight::reference

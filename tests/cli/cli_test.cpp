@@ -1,0 +1,565 @@
+// The contract of the command line: what goes in, what comes out, where, and with which exit code.
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/schema.h"
+#include "quality/compare.h"
+#include "quality/image_io.h"
+
+namespace airlight {
+namespace {
+
+namespace fs = std::filesystem;
+using quality::Image;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+using tests::Json;
+using Words = std::vector<std::string>;
+
+std::string read_text(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+struct Result {
+  int exit_code;
+  std::string out, err;
+};
+
+/// A folder of its own for each test, in which the program runs.
+class CommandLine : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    std::string name = fmt::format("airlight-{}-{}-{}", getpid(), test->test_suite_name(), test->name());
+    std::replace(name.begin(), name.end(), '/', '-');
+    folder_ = fs::temp_directory_path() / name;
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path file(const std::string& name) const { return folder_ / name; }
+
+  Result shell(const std::string& command) const {
+    const std::string line = fmt::format("cd {} && {} >stdout 2>stderr </dev/null",
+                                         quality::shell_quote(folder_.string()), command);
+    const int status = std::system(line.c_str());
+    EXPECT_TRUE(WIFEXITED(status)) << command;
+    return {WEXITSTATUS(status), read_text(file("stdout")), read_text(file("stderr"))};
+  }
+
+  Result airlight(const Words& arguments) const {
+    std::string command = quality::shell_quote(AIRLIGHT_BINARY);
+    for (const std::string& argument : arguments) command += fmt::format(" {}", quality::shell_quote(argument));
+    return shell(command);
+  }
+
+  /// Runs with a small image, grid and shadow map, where `arguments` do not say otherwise.
+  Result small(Words arguments) const {
+    const std::vector<std::pair<std::string, std::string>> defaults = {{"--size", "32x32"},
+                                                                       {"--alpha", "64"},
+                                                                       {"--theta", "128"},
+                                                                       {"--phi", "128"},
+                                                                       {"--shadow-map", "128"}};
+    for (const auto& [name, value] : defaults) {
+      if (std::find(arguments.begin(), arguments.end(), name) != arguments.end()) continue;
+      arguments.insert(arguments.end(), {name, value});
+    }
+    return airlight(arguments);
+  }
+
+  /// Renders an image of `cornell`, or of the scene that `arguments` begin with.
+  Image render(const Words& arguments) const {
+    const bool names_scene = !arguments.empty() && arguments[0][0] != '-';
+    Words all = {"render"};
+    if (!names_scene) all.push_back("cornell");
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    all.insert(all.end(), {"-o", "image.exr"});
+    const Result result = small(all);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return quality::read_exr(file("image.exr"));
+  }
+
+  Json compare(const Words& arguments) const {
+    Words all = {"compare", "cornell", "-o", "out", "--frames", "2", "--reference-samples", "64"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const Result result = small(all);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return Json::parse(read_text(file("out/results.json")));
+  }
+
+  fs::path folder_;
+};
+
+double mean(const std::vector<float>& values) {
+  double sum = 0.0;
+  for (float value : values) sum += static_cast<double>(value);
+  return sum / static_cast<double>(values.size());
+}
+
+void expect_one_line_error(const Result& result, int exit_code) {
+  EXPECT_EQ(result.exit_code, exit_code) << result.err;
+  EXPECT_THAT(result.err, StartsWith("airlight: "));
+  EXPECT_EQ(result.err.find('\n'), result.err.size() - 1) << result.err;
+  EXPECT_THAT(result.out, IsEmpty());
+}
+
+using Commands = CommandLine;
+
+TEST_F(Commands, HelpAndVersionAreData) {
+  for (const Words& words : {Words{"--help"}, {"render", "--help"}, {"compare", "--help"}, {"--version"}}) {
+    const Result result = airlight(words);
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_THAT(result.out, HasSubstr("airlight"));
+    EXPECT_THAT(result.err, IsEmpty());
+  }
+}
+
+TEST_F(Commands, ScenesListsEveryBuiltinScene) {
+  const Result result = airlight({"scenes"});
+  EXPECT_EQ(result.exit_code, 0);
+  for (const char* name : {"window", "cornell", "empty", "half-space", "sphere"}) {
+    EXPECT_THAT(result.out, HasSubstr(name));
+  }
+  EXPECT_THAT(result.err, IsEmpty());
+}
+
+TEST_F(Commands, InfoNamesDriverAndLimits) {
+  const Result result = airlight({"info"});
+  EXPECT_EQ(result.exit_code, 0);
+  for (const char* word : {"renderer", "OpenGL", "storage block", "Embree", "cores"}) {
+    EXPECT_THAT(result.out, HasSubstr(word));
+  }
+}
+
+TEST_F(Commands, FullStandardOutputIsAnError) {
+  const Result result = shell(quality::shell_quote(AIRLIGHT_BINARY) + " scenes >/dev/full");
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.err, HasSubstr("standard output"));
+}
+
+/// Arguments that are wrong, and what the message must hold.
+struct Misuse {
+  Words arguments;
+  std::string says;
+};
+
+class Usage : public CommandLine, public testing::WithParamInterface<Misuse> {};
+
+TEST_P(Usage, IsRefusedInOneLineThatNamesTheCulprit) {
+  Words arguments = GetParam().arguments;
+  if (!arguments.empty() && arguments[0][0] == '-' && arguments[0] != "--quiet") {
+    arguments.insert(arguments.begin(), {"render", "cornell", "-o", "x.exr"});
+  }
+  const Result result = airlight(arguments);
+  expect_one_line_error(result, 2);
+  EXPECT_THAT(result.err, HasSubstr(GetParam().says));
+  EXPECT_FALSE(fs::exists(file("x.exr")));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Words, Usage,
+    testing::Values(Misuse{{}, "names no command"}, Misuse{{"sweep", "window"}, "sweep"},
+                    Misuse{{"tune", "window"}, "tune"}, Misuse{{"report", "out"}, "report"},
+                    Misuse{{"--quiet"}, "--quiet"}, Misuse{{"render"}, "SCENE"},
+                    Misuse{{"render", "cornell"}, "-o"}, Misuse{{"render", "cornell", "-o"}, "-o"},
+                    Misuse{{"render", "cornell", "-o", "x.jpg"}, ".exr"}, Misuse{{"scenes", "more"}, "more"},
+                    Misuse{{"render", "cornell", "more", "-o", "x.exr"}, "more"},
+                    Misuse{{"render", "shot.toml", "-o", "x.exr"}, "not built yet"},
+                    Misuse{{"render", "mesh.ply", "-o", "x.exr"}, "not built yet"},
+                    Misuse{{"--debug"}, "--debug"}, Misuse{{"--light-texture", "x.exr"}, "--light-texture"},
+                    Misuse{{"--max-error", "1"}, "--max-error"}, Misuse{{"--frames", "3"}, "--frames"},
+                    Misuse{{"--fov", "30", "--fov", "40"}, "--fov"},
+                    Misuse{{"compare", "cornell", "--max-error=-1"}, "--max-error"},
+                    Misuse{{"compare", "cornell", "--max-error", "nan"}, "--max-error"},
+                    Misuse{{"compare", "cornell", "--max-error", "1", "--volume", "none"}, "--max-error"},
+                    Misuse{{"compare", "cornell", "--frames", "0"}, "--frames"},
+                    Misuse{{"compare", "cornell", "--volume", "vsv,vsv"}, "twice"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Numbers, Usage,
+    testing::Values(Misuse{{"--size", "0x32"}, "--size"}, Misuse{{"--size", "32"}, "--size"},
+                    Misuse{{"--size=-32x32"}, "--size"}, Misuse{{"--size", "32x32x32"}, "--size"},
+                    Misuse{{"--size", "99999999999x32"}, "--size"}, Misuse{{"--size", "32x32 "}, "--size"},
+                    Misuse{{"--eye", "nan,0,0", "--target", "0,0,0"}, "--eye"},
+                    Misuse{{"--eye", "0,0,1", "--target", "0,inf,0"}, "--target"},
+                    Misuse{{"--eye", "0,0", "--target", "0,0,0"}, "--eye"},
+                    Misuse{{"--eye", "0,0,1e999", "--target", "0,0,0"}, "--eye"},
+                    Misuse{{"--fov", "0"}, "--fov"}, Misuse{{"--fov", "180"}, "--fov"},
+                    Misuse{{"--fov", "40deg"}, "--fov"}, Misuse{{"--fov", ""}, "--fov"},
+                    Misuse{{"--intensity", "1,2"}, "--intensity"}, Misuse{{"--intensity=-1"}, "--intensity"},
+                    Misuse{{"--intensity", "1e39"}, "--intensity"}, Misuse{{"--sigma-s", "nan"}, "--sigma-s"},
+                    Misuse{{"--sigma-a=-0.1"}, "--sigma-a"}, Misuse{{"--g", "nan"}, "--g"},
+                    Misuse{{"--phase", "henyey-greenstein", "--g", "1"}, "--g"},
+                    Misuse{{"--g", "0.5"}, "henyey-greenstein"}, Misuse{{"--albedo", "1.5"}, "--albedo"},
+                    Misuse{{"--exposure", "0"}, "--exposure"}, Misuse{{"--exposure", "inf"}, "--exposure"},
+                    Misuse{{"--shadow-map", "0"}, "--shadow-map"},
+                    Misuse{{"--reference-samples", "1.5"}, "--reference-samples"},
+                    Misuse{{"--alpha", "0"}, "--alpha"}, Misuse{{"--theta=-5"}, "--theta"},
+                    Misuse{{"--phi", "100"}, "--phi"}, Misuse{{"--phi", "0x80"}, "--phi"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Choices, Usage,
+    testing::Values(
+        Misuse{{"--camera", "back"}, "front"}, Misuse{{"--camera", "1"}, "front"},
+        Misuse{{"--light", "sun"}, "ceiling"}, Misuse{{"--light", "99999999999999999999"}, "ceiling"},
+        Misuse{{"--eye", "0,0,1"}, "--target"}, Misuse{{"--target", "0,0,1"}, "--eye"},
+        Misuse{{"--camera", "0", "--eye", "0,0,1", "--target", "0,0,0"}, "--camera"},
+        Misuse{{"--eye", "0,0,1", "--target", "0,0,1"}, "eye and target"},
+        Misuse{{"--up", "0,0,1"}, "parallel"}, Misuse{{"--light-position", "0,1,0"}, "--intensity"},
+        Misuse{{"--light", "0", "--light-position", "0,1,0", "--intensity", "1"}, "--light"},
+        Misuse{{"--phase", "mie"}, "unknown"}, Misuse{{"--phase", "hoffman-preetham"}, "not built yet"},
+        Misuse{{"--volume", "froxel"}, "reference-march"}, Misuse{{"--surface", "psv"}, "shadow-map"},
+        Misuse{{"--volume", "vsv,none"}, "one method"}, Misuse{{"--volume", ""}, "--volume"},
+        Misuse{{"--volume", "vsv:integral=sum"}, "riemann"}, Misuse{{"--volume", "vsv:shade=1"}, "integral"},
+        Misuse{{"--integral", "factored"}, "not built yet"},
+        Misuse{{"--populate", "conservative"}, "not built yet"},
+        Misuse{{"--populate", "screen-space"}, "not built yet"},
+        Misuse{{"--alpha", "auto"}, "not built yet"}));
+
+using BadFile = CommandLine;
+
+TEST_F(BadFile, MissingSceneIsNamed) {
+  for (const char* scene : {"nosuch", "nosuch.glb", "nosuch.obj", "nosuch.xyz"}) {
+    const Result result = airlight({"render", scene, "-o", "x.exr"});
+    expect_one_line_error(result, 3);
+    EXPECT_THAT(result.err, HasSubstr(scene));
+  }
+}
+
+TEST_F(BadFile, UnwritableOutputIsFoundBeforeTheWork) {
+  // An image of this size would take longer than the suite may.
+  const Words huge = {"--size", "8192x8192", "--volume", "reference"};
+  for (Words words : {Words{"render", "window", "-o", "nosuch/x.exr"},
+                      {"render", "window", "-o", "/dev/null/x.exr"},
+                      {"compare", "window", "-o", "/dev/null/x"},
+                      {"compare", "window", "-o", "out", "--json", "no/x"}}) {
+    words.insert(words.end(), huge.begin(), huge.end());
+    expect_one_line_error(airlight(words), 3);
+  }
+}
+
+TEST_F(BadFile, LightAtTheEyeIsRefused) {
+  const Result result = airlight({"render", "cornell", "-o", "x.exr", "--eye", "0,1,2", "--target", "0,1,0",
+                                  "--light-position", "0,1,2", "--intensity", "1"});
+  expect_one_line_error(result, 3);
+  EXPECT_THAT(result.err, HasSubstr("infinite"));
+}
+
+using Driver = CommandLine;
+
+TEST_F(Driver, ImageOverTheLimitNamesIt) {
+  const Result result = airlight({"render", "cornell", "-o", "x.exr", "--size", "1000000x8"});
+  expect_one_line_error(result, 4);
+  EXPECT_THAT(result.err, HasSubstr("GL_MAX_TEXTURE_SIZE"));
+  expect_one_line_error(airlight({"compare", "cornell", "-o", "out", "--size", "1000000x8"}), 4);
+}
+
+TEST_F(Driver, GridOverTheLimitNamesIt) {
+  const Result result =
+      small({"compare", "cornell", "-o", "out", "--alpha", "1048576", "--theta", "1048576"});
+  expect_one_line_error(result, 4);
+  EXPECT_THAT(result.err, HasSubstr("GL_MAX_SHADER_STORAGE_BLOCK_SIZE"));
+}
+
+TEST_F(Driver, ShadowMapOverTheLimitNamesIt) {
+  const Result result = small({"render", "cornell", "-o", "x.exr", "--shadow-map", "1000000"});
+  expect_one_line_error(result, 4);
+  EXPECT_THAT(result.err, HasSubstr("GL_MAX_TEXTURE_SIZE"));
+}
+
+using Render = CommandLine;
+
+TEST_F(Render, WritesChannelsAndPreview) {
+  const Image image = render({"--size", "40x24"});
+  EXPECT_EQ(image.size, glm::ivec2(40, 24));
+  Words names;
+  for (const auto& channel : image.channels) names.push_back(channel.first);
+  EXPECT_THAT(names, testing::UnorderedElementsAre("R", "G", "B", "airlight.R", "airlight.G", "airlight.B",
+                                                   "surface.Y", "distance.Y"));
+  EXPECT_THAT(read_text(file("image.png")), StartsWith("\x89PNG"));
+}
+
+TEST_F(Render, SaysNothingOnStandardOutput) {
+  const Result talks = small({"render", "cornell", "-o", "x.exr"});
+  EXPECT_THAT(talks.out, IsEmpty());
+  EXPECT_THAT(talks.err, HasSubstr("x.exr"));
+  const Result silent = small({"render", "cornell", "-o", "x.exr", "--quiet"});
+  EXPECT_THAT(silent.out + silent.err, IsEmpty());
+}
+
+TEST_F(Render, KeepsItsConfigurationSoThatItCanBeRepeated) {
+  const Image image = render({"--sigma-s", "0.2,0.3,0.4", "--phase", "henyey-greenstein", "--g", "0.3",
+                              "--fov", "50", "--volume", "vsv:integral=riemann"});
+  const auto text = [&](const std::string& name) { return image.metadata.at("airlight." + name); };
+  EXPECT_EQ(text("scene"), "cornell");
+  EXPECT_EQ(text("sigma-s"), "0.2,0.3,0.4");
+  EXPECT_EQ(text("sigma-a"), "0,0,0");
+  EXPECT_EQ(text("g"), "0.3");
+  EXPECT_EQ(text("fov"), "50");
+  EXPECT_EQ(text("integral"), "riemann");
+  EXPECT_EQ(text("alpha"), "64");
+  EXPECT_EQ(text("shadow-map"), "128");
+
+  // By the command.
+  const std::string command = text("command");
+  ASSERT_THAT(command, StartsWith("airlight render cornell"));
+  EXPECT_EQ(shell(quality::shell_quote(AIRLIGHT_BINARY) + command.substr(8)).exit_code, 0);
+  EXPECT_EQ(quality::read_exr(file("image.exr")).channels, image.channels);
+
+  // By the options.
+  Words words;
+  for (const char* name :
+       {"eye", "target", "up", "fov", "light-position", "intensity", "sigma-s", "sigma-a", "phase", "g",
+        "size", "volume", "surface", "alpha", "theta", "phi", "shadow-map"}) {
+    words.push_back(fmt::format("--{}", name));
+    words.push_back(text(name));
+  }
+  EXPECT_EQ(render(words).channels, image.channels);
+}
+
+TEST_F(Render, MethodsNoneMeanNoAirlightAndNoShadow) {
+  const Image image = render({"--volume", "none", "--surface", "none"});
+  EXPECT_EQ(mean(image.channels.at("airlight.G")), 0.0);
+  for (std::size_t i = 0; i < image.channels.at("distance.Y").size(); ++i) {
+    EXPECT_EQ(image.channels.at("surface.Y")[i], image.channels.at("distance.Y")[i] > 0.0f ? 1.0f : 0.0f);
+  }
+  EXPECT_GT(mean(image.channels.at("G")), 0.0);
+}
+
+TEST_F(Render, ReferenceMethodsAgreeWithEachOther) {
+  const Image converged = render({"--volume", "reference", "--surface", "reference"});
+  for (const char* volume :
+       {"reference-march", "reference-march:rays=single:steps=256", "reference:samples=32"}) {
+    const Image other = render({"--volume", volume, "--surface", "reference"});
+    EXPECT_NEAR(mean(other.channels.at("airlight.G")) / mean(converged.channels.at("airlight.G")), 1.0, 2e-3)
+        << volume;
+    EXPECT_EQ(other.channels.at("surface.Y"), converged.channels.at("surface.Y"));
+  }
+}
+
+TEST_F(Render, BlackSurfacesLeaveTheAirlightAlone) {
+  const Image image = render({"--albedo", "0"});
+  EXPECT_EQ(image.channels.at("R"), image.channels.at("airlight.R"));
+  EXPECT_NE(render({}).channels.at("R"), image.channels.at("airlight.R"));
+}
+
+TEST_F(Render, LightAndMediumOptionsScaleTheAirlight) {
+  const Words base = {"empty", "--volume", "reference", "--surface", "none"};
+  const auto green = [&](const Words& more) {
+    Words words = base;
+    words.insert(words.end(), more.begin(), more.end());
+    return mean(render(words).channels.at("airlight.G"));
+  };
+  const double plain = green({"--intensity", "1", "--sigma-s", "0.001"});
+  EXPECT_NEAR(green({"--intensity", "5,3,5", "--sigma-s", "0.001"}) / plain, 3.0, 1e-3);
+  // In thin fog the airlight grows with the scattering coefficient, and absorption weakens it.
+  EXPECT_NEAR(green({"--intensity", "1", "--sigma-s", "0.001,0.002,0.003"}) / plain, 2.0, 0.1);
+  EXPECT_LT(green({"--intensity", "1", "--sigma-s", "0.001", "--sigma-a", "0.1"}), 0.9 * plain);
+  EXPECT_NE(green({"--intensity", "1", "--sigma-s", "0.001", "--phase", "rayleigh"}), plain);
+  EXPECT_NE(green({"--light-position", "1,1,1", "--intensity", "1", "--sigma-s", "0.001"}), plain);
+}
+
+TEST_F(Render, CameraOptionsMoveTheView) {
+  const auto distance = [&](const Words& words) { return render(words).channels.at("distance.Y"); };
+  const auto own = distance({});
+  EXPECT_EQ(distance({"--camera", "front"}), own);
+  EXPECT_EQ(distance({"--camera", "0"}), own);
+  EXPECT_EQ(distance({"--eye", "0,1,4.2", "--target", "0,1,0", "--fov", "38"}), own);
+  EXPECT_NE(distance({"--fov", "60"}), own);
+  EXPECT_NE(distance({"--eye", "-0.5,1,4.2", "--target", "0,1,0", "--fov", "38"}), own);
+  EXPECT_NE(distance({"--up", "1,0,0"}), own);
+}
+
+TEST_F(Render, ExposureIsThatOfThePreviewAlone) {
+  const Image dark = render({"--exposure", "0.1"});
+  const std::string dark_preview = read_text(file("image.png"));
+  const Image bright = render({"--exposure", "10"});
+  EXPECT_NE(read_text(file("image.png")), dark_preview);
+  EXPECT_EQ(dark.channels, bright.channels);
+  EXPECT_EQ(bright.metadata.at("airlight.exposure"), "10");
+}
+
+/// A file without camera and light, with one good triangle and one of no area.
+class SceneFile : public CommandLine {
+ protected:
+  void SetUp() override {
+    CommandLine::SetUp();
+    std::ofstream(file("two.obj")) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 2\n";
+  }
+  const Words light_ = {"--light-position", "1,1,2", "--intensity", "1"};
+};
+
+TEST_F(SceneFile, WithoutLightIsAnErrorThatSaysHowToGiveOne) {
+  const Result result = airlight({"render", "two.obj", "-o", "x.exr"});
+  expect_one_line_error(result, 2);
+  EXPECT_THAT(result.err, HasSubstr("--light-position"));
+}
+
+TEST_F(SceneFile, WithoutCameraIsFittedAndExposedAutomatically) {
+  Words words = {"render", "two.obj", "-o", "x.exr"};
+  words.insert(words.end(), light_.begin(), light_.end());
+  const Result result = small(words);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("automatic"));
+  EXPECT_GT(mean(quality::read_exr(file("x.exr")).channels.at("distance.Y")), 0.0);
+}
+
+TEST_F(SceneFile, WarningsReachStandardErrorAndTheResults) {
+  Words words = {"compare", "two.obj",  "-o", "out", "--volume", "vsv", "--reference-samples",
+                 "16",      "--frames", "1"};
+  words.insert(words.end(), light_.begin(), light_.end());
+  const Result result = small(words);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("1 triangle"));
+  EXPECT_EQ(Json::parse(read_text(file("out/results.json")))["scene"]["degenerate_triangles"], 1);
+  words.push_back("--quiet");
+  EXPECT_THAT(small(words).err, IsEmpty());
+}
+
+using Compare = CommandLine;
+
+TEST_F(Compare, ResultsFollowTheirSchema) {
+  const Json schema = Json::parse(read_text(AIRLIGHT_SCHEMA));
+  const Json results = compare({"--volume",
+                                "none,vsv,vsv:integral=riemann,vsv:scan=fused:phi-cells=equal,reference,"
+                                "reference-march:steps=64,reference-march:steps=64:rays=single",
+                                "--surface", "none,shadow-map,reference"});
+  EXPECT_THAT(tests::schema_violations(results, schema), IsEmpty());
+  EXPECT_EQ(results["runs"].size(), 21u);
+
+  // The check itself sees what is missing, what is not documented, and what is of the wrong type.
+  Json broken = results;
+  broken["runs"][0].erase("frame_ms");
+  broken["runs"][1]["mood"] = "good";
+  broken["reference"]["samples"] = "many";
+  EXPECT_EQ(tests::schema_violations(broken, schema).size(), 3u);
+}
+
+TEST_F(Compare, WritesEveryImageAndTheReport) {
+  const Json results = compare({"--volume", "vsv,vsv:integral=riemann", "--surface", "shadow-map"});
+  for (const Json& run : results["runs"]) {
+    const std::string name = run["name"];
+    EXPECT_EQ(quality::read_exr(file("out/" + name + ".exr")).channels.size(), 8u);
+    EXPECT_THAT(read_text(file("out/" + name + ".png")), StartsWith("\x89PNG"));
+    EXPECT_THAT(read_text(file("out/" + name + "_error.png")), StartsWith("\x89PNG"));
+  }
+  EXPECT_EQ(quality::read_exr(file("out/reference.exr")).channels.size(), 8u);
+  EXPECT_THAT(read_text(file("out/reference.png")), StartsWith("\x89PNG"));
+  EXPECT_THAT(read_text(file("out/report.html")), HasSubstr("vsv:integral=riemann"));
+}
+
+TEST_F(Compare, JudgesByTheReference) {
+  const Json results = compare({"--volume", "none,vsv,reference,reference-march", "--surface", "reference",
+                                "--reference-samples", "512"});
+  const Json &none = results["runs"][0], &vsv = results["runs"][1], &reference = results["runs"][2],
+             &march = results["runs"][3];
+  EXPECT_EQ(none["error"]["airlight"]["bias"], -1.0);
+  EXPECT_EQ(reference["error"]["airlight"]["rmse"], 0.0);
+  EXPECT_LT(vsv["error"]["airlight"]["rrmse"], 0.1);
+  EXPECT_LT(march["error"]["airlight"]["rrmse"], 0.01);
+  EXPECT_EQ(vsv["error"]["surface"]["wrong_pixels"], 0);
+  // The truth that is kept is charged to the run that shows it.
+  EXPECT_GE(reference["frame_ms"], results["reference"]["ms"]);
+  EXPECT_EQ(reference["rays"], results["reference"]["rays"]);
+  EXPECT_EQ(march["rays"], 32 * 32 * 512);
+  EXPECT_EQ(march["march_ratio"], 1.0);
+  EXPECT_FALSE(none.contains("rays"));
+}
+
+TEST_F(Compare, EachRunNamesTheCommandThatRepeatsIt) {
+  const Json first = compare({"--volume", "vsv,vsv:integral=riemann", "--sigma-s", "0.3"})["runs"][1];
+  const std::string command = first["command"];
+  ASSERT_THAT(command, StartsWith("airlight compare cornell"));
+  EXPECT_EQ(shell(quality::shell_quote(AIRLIGHT_BINARY) + command.substr(8)).exit_code, 0);
+  const Json second =
+      Json::parse(read_text(file("out/" + first["name"].get<std::string>() + "/results.json")))["runs"][0];
+  EXPECT_EQ(second["settings"], first["settings"]);
+  EXPECT_EQ(second["error"], first["error"]);
+}
+
+TEST_F(Compare, CommonOptionsAreDefaultsOfEachMethod) {
+  const Json results = compare({"--volume", "vsv,vsv:alpha=32:theta=64", "--alpha", "128"});
+  EXPECT_EQ(results["runs"][0]["settings"]["alpha"], 128);
+  EXPECT_EQ(results["runs"][1]["settings"]["alpha"], 32);
+  EXPECT_EQ(results["runs"][1]["settings"]["theta"], 64);
+}
+
+TEST_F(Compare, PrintsATableOrTheResults) {
+  const Words words = {
+      "compare", "cornell", "-o", "out", "--volume", "vsv", "--frames", "1", "--reference-samples", "16"};
+  const Result table = small(words);
+  EXPECT_THAT(table.out, HasSubstr("rrmse %"));
+  EXPECT_THAT(table.err, HasSubstr("report.html"));
+  EXPECT_EQ(table.err.find('\r'), std::string::npos) << "progress belongs on a terminal";
+
+  Words with_json = words;
+  with_json.insert(with_json.end(), {"--json", "-", "--quiet"});
+  const Result json = small(with_json);
+  EXPECT_EQ(json.out, read_text(file("out/results.json")));
+  EXPECT_THAT(json.err, IsEmpty());
+
+  with_json[with_json.size() - 2] = "copy.json";
+  EXPECT_THAT(small(with_json).out, HasSubstr("rrmse %"));
+  EXPECT_EQ(read_text(file("copy.json")), read_text(file("out/results.json")));
+}
+
+TEST_F(Compare, MissedAccuracyIsOneAfterEverythingIsWritten) {
+  const Words words = {
+      "compare", "cornell",    "-o", "out", "--volume", "none,vsv", "--frames", "1", "--reference-samples",
+      "64",      "--max-error"};
+  Words strict = words, lax = words;
+  strict.push_back("1e-6");
+  lax.push_back("0.5");  // `none` is off by more, but is not judged
+
+  const Result missed = small(strict);
+  EXPECT_EQ(missed.exit_code, 1);
+  EXPECT_THAT(missed.err, HasSubstr("airlight: --max-error 1e-06: vsv"));
+  EXPECT_THAT(missed.out, HasSubstr("rrmse %"));
+  EXPECT_TRUE(fs::exists(file("out/report.html")));
+  EXPECT_EQ(small(lax).exit_code, 0);
+}
+
+TEST_F(Compare, DefaultsToTheWindowAndItsOwnFolder) {
+  const Result result = small({"compare", "--frames", "1", "--reference-samples", "16", "--size", "16x16"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const Json results = Json::parse(read_text(file("out/window/results.json")));
+  ASSERT_EQ(results["runs"].size(), 3u);
+  EXPECT_EQ(results["runs"][0]["volume"], "vsv");
+  EXPECT_EQ(results["runs"][2]["volume"], "reference-march");
+  EXPECT_EQ(results["runs"][0]["surface"], "shadow-map");
+}
+
+TEST_F(Compare, SceneWithoutGeometryIsSane) {
+  const Result result = small({"compare", "empty", "-o", "out", "--volume", "vsv", "--frames", "1"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const Json run = Json::parse(read_text(file("out/results.json")))["runs"][0];
+  EXPECT_LT(run["error"]["airlight"]["rrmse"], 0.01);
+  EXPECT_EQ(run["error"]["surface"]["pixels"], 0);
+}
+
+TEST_F(Compare, BlackReferenceGivesNoInfinity) {
+  const Result result =
+      small({"compare", "cornell", "-o", "out", "--volume", "vsv", "--frames", "1", "--intensity", "0"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const Json results = Json::parse(read_text(file("out/results.json")));
+  EXPECT_EQ(results["runs"][0]["error"]["airlight"]["rmse"], 0.0);
+  EXPECT_THAT(tests::schema_violations(results, Json::parse(read_text(AIRLIGHT_SCHEMA))), IsEmpty());
+}
+
+}  // namespace
+}  // namespace airlight

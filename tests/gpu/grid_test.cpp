@@ -1,0 +1,148 @@
+#include "epipolar/grid.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "epipolar/space.h"
+#include "epipolar/volume.h"
+#include "reference/visibility.h"
+#include "scene/error.h"
+#include "support/frame_probe.h"
+#include "support/random.h"
+#include "support/scenes.h"
+
+namespace airlight::epipolar {
+namespace {
+
+using reference::LightRays;
+using reference::Visibility;
+using tests::builtin;
+using tests::view_of;
+
+TEST(Grid, OverTheDriversLimitIsAnErrorThatNamesIt) {
+  gpu::Context& context = tests::gpu_context();
+  const std::int64_t limit = context.limits().max_storage_block_bytes;
+  // The smallest power of two of planes that is over the limit.
+  int theta = 1;
+  while (std::int64_t{1} * (1 << 20) * theta * 128 / 8 <= limit && theta < 1 << 20) theta *= 2;
+  try {
+    const Grid grid(context, {1 << 20, theta, 128});
+    FAIL() << "the driver takes any grid";
+  } catch (const scene::Error& error) {
+    EXPECT_EQ(error.exit_code, scene::ExitCode::driver);
+    EXPECT_THAT(error.what(), testing::HasSubstr("GL_MAX_SHADER_STORAGE_BLOCK_SIZE"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("--alpha"));
+  }
+  context.check();
+}
+
+TEST(Grid, RefusesCountsThatCannotBe) {
+  for (const Resolution& bad : {Resolution{0, 8, 128}, Resolution{8, 0, 128}, Resolution{8, 8, 0}, Resolution{8, 8, 100},
+                                Resolution{8, 8, 192}, Resolution{-1, 8, 128}, Resolution{8, 1 << 21, 128}}) {
+    try {
+      validate(bad);
+      ADD_FAILURE() << bad.alpha << "x" << bad.theta << "x" << bad.phi;
+    } catch (const scene::Error& error) {
+      EXPECT_EQ(error.exit_code, scene::ExitCode::usage);
+    }
+  }
+  EXPECT_NO_THROW(validate({1, 1, 128}));
+}
+
+constexpr float k_growth = 1.5f;
+
+/// A frame's grid on the CPU, and exact rays beside it.
+class BitsOf {
+ public:
+  BitsOf(const scene::Scene& scene, const scene::View& view, const Resolution& n, int shadow_map_size)
+      : n_(n), axes_(make_axes(glm::normalize(view.light.position - view.camera.eye))),
+        D_(glm::distance(view.light.position, view.camera.eye)),
+        exact_(scene.geometry, view.light.position, view.camera.eye) {
+    tests::look_into_frame(scene.geometry, view, shadow_map_size, [&](const frame::FrameInputs& inputs) {
+      const ShadowVolume volume(inputs.context, n, Scan::fused);
+      tests::build(volume, inputs, k_growth);
+      bits_ = volume.grid().bits().read<std::uint32_t>();
+      phi_max_ = static_cast<double>(shaders::angle_from_order(volume.grid().phi_range().read<float>().at(0)));
+    });
+    alpha_ = alpha_range(scene::camera_frame(view.camera, view.size), axes_.axis);
+  }
+
+  double alpha(double i) const { return alpha_.lower + (i + 0.5) * (alpha_.upper - alpha_.lower) / n_.alpha; }
+  double theta(double j) const { return (j + 0.5) * 2 * std::numbers::pi / n_.theta - std::numbers::pi; }
+  double phi(double k) const {
+    const double x = (k + 0.5) / n_.phi, growth = static_cast<double>(k_growth);
+    return phi_max_ * x * (1 + growth * x) / (1 + growth);
+  }
+
+  bool bit(int i, int j, int k) const {
+    const auto word = (static_cast<std::size_t>(j) * static_cast<std::size_t>(n_.alpha) + static_cast<std::size_t>(i)) *
+                          static_cast<std::size_t>(n_.phi / 32) + static_cast<std::size_t>(k / 32);
+    return (bits_[word] >> (k % 32) & 1u) != 0;
+  }
+
+  /// Whether the light sees the point (α, θ, φ), which may be infinitely far.
+  bool is_shadowed(double alpha, double theta, double phi) const {
+    const glm::dvec3 direction = std::sin(phi) * (std::cos(theta) * axes_.u + std::sin(theta) * axes_.f) - std::cos(phi) * axes_.axis;
+    const double sine = std::sin(alpha + phi);
+    LightRays rays{};
+    rays.direction_x[0] = static_cast<float>(direction.x);
+    rays.direction_y[0] = static_cast<float>(direction.y);
+    rays.direction_z[0] = static_cast<float>(direction.z);
+    rays.length[0] = sine > 1e-6 && alpha + phi < std::numbers::pi ? static_cast<float>(D_ * std::sin(alpha) / sine) : 1e9f;
+    return (exact_.lit(rays, 1, reference::RayMode::single) & 1u) == 0;
+  }
+
+ private:
+  Resolution n_;
+  Axes axes_;
+  double D_;
+  Visibility exact_;
+  std::vector<std::uint32_t> bits_;
+  Range alpha_{};
+  double phi_max_ = 0.0;
+};
+
+class GridBits : public testing::TestWithParam<const char*> {};
+
+TEST_P(GridBits, SayWhetherTheirVoxelsCentreIsInShadow) {
+  const scene::Scene& scene = builtin(GetParam());
+  const Resolution n{256, 512, 256};
+  const int texels = 1024;
+  const BitsOf grid(scene, view_of(scene, {128, 128}), n, texels);
+  tests::Random random(1);
+  int wrong = 0, far_from_boundaries = 0;
+  const int samples = 50000;
+  for (int sample = 0; sample < samples; ++sample) {
+    const int i = static_cast<int>(random.uniform(0, n.alpha)), j = static_cast<int>(random.uniform(0, n.theta));
+    const int k = static_cast<int>(random.uniform(0, n.phi));
+    const double alpha = grid.alpha(i), theta = grid.theta(j), phi = grid.phi(k);
+    const bool bit = grid.bit(i, j, k);
+    if (bit == grid.is_shadowed(alpha, theta, phi)) continue;
+    ++wrong;
+    // The shadow map answers for the centre of a texel, whose diagonal is up to 2√2/N of an angle away, and single precision
+    // rounds occluders to a cell of α.
+    const double reach = 2 * std::sqrt(2.0) / texels, step = grid.alpha(1) - grid.alpha(0);
+    bool is_near_boundary = false;
+    for (int direction = 0; direction < 24 && !is_near_boundary; ++direction) {
+      const double turn = direction * std::numbers::pi / 4, radius = reach * (1 + direction / 8) / 3;
+      for (double along : {-1.5 * step, 0.0, 1.5 * step}) {
+        is_near_boundary = is_near_boundary || bit == grid.is_shadowed(std::max(alpha + along, 1e-4),
+                                                                       theta + radius * std::sin(turn) / std::max(std::sin(phi), 1e-2),
+                                                                       std::max(phi + radius * std::cos(turn), 1e-4));
+      }
+    }
+    far_from_boundaries += is_near_boundary ? 0 : 1;
+  }
+  RecordProperty("wrong", std::to_string(static_cast<double>(wrong) / samples));
+  RecordProperty("far_from_boundaries", far_from_boundaries);
+  EXPECT_LT(wrong, samples / 500) << "what a texel of 1/1024 of a cube face blurs";
+  EXPECT_LE(far_from_boundaries, samples / 10000);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, GridBits, testing::Values("cornell", "window", "sphere", "half-space"));
+
+}  // namespace
+}  // namespace airlight::epipolar

@@ -1,0 +1,135 @@
+// Calls every function that the shaders share with C++, on one set of inputs: on the GPU and on the CPU.
+#ifndef AIRLIGHT_EVERY_FUNCTION_GLSL
+#define AIRLIGHT_EVERY_FUNCTION_GLSL
+#include "frame/shadow_cube.glsl"
+#include "frame/view.glsl"
+#include "epipolar/grid.glsl"
+#include "media/medium.glsl"
+
+CONST uint k_outputs = 58u;
+
+struct Inputs {
+  vec4 a;  // axis, D
+  vec4 b;  // unit view ray, distance t along it
+  vec4 c;  // α, θ, φ, π − α
+  vec4 d;  // any vector, phase function's g
+};
+
+struct Outputs {
+  float values[k_outputs];
+};
+
+// Writes 3 values from `at` on.
+FUNCTION void put(INOUT(Outputs) outputs, INOUT(uint) at, IN(vec3) value) {
+  outputs.values[at] = value.x;
+  outputs.values[at + 1u] = value.y;
+  outputs.values[at + 2u] = value.z;
+  at += 3u;
+}
+
+FUNCTION void put(INOUT(Outputs) outputs, INOUT(uint) at, float value) {
+  outputs.values[at] = value;
+  at += 1u;
+}
+
+FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
+  for (uint i = 0u; i < k_outputs; ++i) outputs.values[i] = 0.0f;
+  vec3 l = vec3(inputs.a.x, inputs.a.y, inputs.a.z);
+  vec3 ray = vec3(inputs.b.x, inputs.b.y, inputs.b.z);
+  float t = inputs.b.w;
+  float alpha = inputs.c.x;
+  float theta = inputs.c.y;
+  float phi = inputs.c.z;
+  float complement = inputs.c.w;
+  vec3 any_vector = vec3(inputs.d.x, inputs.d.y, inputs.d.z);
+  float g = inputs.d.w;
+
+  EpipolarBlock space;
+  space.axis = l;
+  space.distance = inputs.a.w;
+  // Any pair at right angles will do; this one has no branch.
+  space.u = normalize(cross(l, vec3(0.1f, 0.7f, -0.3f)));
+  space.f = cross(l, space.u);
+  space.alpha_min = 0.3f;
+  space.alpha_step = 0.005f;
+
+  MediumBlock medium;
+  medium.sigma_s = vec3(0.1f, 0.2f, 0.3f);
+  medium.g = g;
+  medium.sigma_t = vec3(0.15f, 0.2f, 0.4f);
+  medium.table_row_step = 0.0f;
+  medium.intensity = vec3(5.0f, 6.0f, 7.0f);
+  medium.padding = 0.0f;
+
+  ViewBlock view;
+  view.eye_high = 100.0f * ray;
+  view.half_width = 0.7f;
+  view.eye_low = 1e-6f * ray;
+  view.half_height = 0.4f;
+  view.right = space.u;
+  view.image_width = 320.0f;
+  view.up = space.f;
+  view.image_height = 200.0f;
+  view.forward = l;
+  view.eye_near = 0.1f;
+  view.light = 2.0f * l;
+  view.light_near = 0.1f;
+  view.intensity = vec3(1.0f);
+  view.shadow_map_size = 512.0f;
+  view.sigma_t = vec3(0.1f);
+  view.padding = 0.0f;
+
+  uint at = 0u;
+  EyeAngle angle = eye_angle(space, ray, 1e-4f);
+  put(outputs, at, angle.sine);
+  put(outputs, at, angle.cosine);
+  put(outputs, at, alpha_of(angle));
+  put(outputs, at, alpha_complement(angle));
+  put(outputs, at, theta_of(space, ray));
+  put(outputs, at, phi_at(space, angle, t));  // 5
+  EyeAngle given;
+  given.sine = sin(alpha);
+  given.cosine = cos(alpha);
+  put(outputs, at, distance_from_eye(space, given, phi));
+  put(outputs, at, alpha_at(space, sin(phi), cos(phi), t));
+  put(outputs, at, light_ray(space, theta, phi));
+  put(outputs, at, view_ray_of(space, alpha, theta));
+  put(outputs, at, path_length(space, complement, phi));  // 14
+  put(outputs, at, angle_order(abs(t * ray.x), t * ray.y));
+  put(outputs, at, angle_from_order(0.6f * alpha));
+  put(outputs, at, theta_centre(uint(100.0f * alpha), 333u));
+  put(outputs, at, float(theta_cell(theta, 333u)));  // 18
+  put(outputs, at, float(alpha_cell(space, alpha, 512u)));
+  put(outputs, at, float(first_shadowed_cell(space, alpha, 512u)));
+  put(outputs, at, float(grid_word(uint(100.0f * alpha), uint(100.0f * phi), 3u, 512u, 16u)));
+  put(outputs, at, phase_function(k_isotropic, g, ray.x));  // 22
+  put(outputs, at, phase_function(k_rayleigh, g, ray.x));
+  put(outputs, at, phase_function(k_henyey_greenstein, g, ray.x));
+  put(outputs, at, airlight_integrand(space, medium, k_henyey_greenstein, complement, phi));  // 25
+  put(outputs, at, integrate_cell(space, medium, k_rayleigh, complement, 0.9f * phi, phi));
+  put(outputs, at, airlight_scale(space, medium, given.sine));
+  CubePoint point = cube_point(any_vector);
+  put(outputs, at, float(point.face));  // 34
+  put(outputs, at, point.uv.x);
+  put(outputs, at, point.uv.y);
+  put(outputs, at, point.depth);
+  put(outputs, at, cube_direction(point.face, point.uv));
+  ivec2 texel = cube_texel(point.uv, 512.0f);
+  put(outputs, at, float(texel.x));  // 41
+  put(outputs, at, float(texel.y));
+  vec2 centre = cube_texel_centre(texel, 512.0f);
+  put(outputs, at, centre.x);
+  put(outputs, at, centre.y);
+  put(outputs, at, view_ray(view, vec2(100.0f * alpha, 60.0f * phi)));  // 45
+  put(outputs, at, quarter_pixel(view));
+  put(outputs, at, eye_relative(view, 100.0f * ray + 0.01f * any_vector));
+  put(outputs, at, ray_triangle_distance(l, t * l + space.u, t * l - 2.0f * space.f, 2.0f * t * l - space.u + space.f));  // 53
+  PhiCells cells;
+  cells.phi_max = complement;
+  cells.growth = 1.0f + g;
+  cells.count = 512.0f;
+  put(outputs, at, phi_of_cell(cells, 100.0f * alpha));
+  put(outputs, at, cell_of_phi(cells, phi));
+}
+
+#endif

@@ -1,0 +1,67 @@
+#include "surface_shadows/shadow_map_lookup.h"
+
+#include <gtest/gtest.h>
+
+#include "frame/frame.h"
+#include "reference/reference.h"
+#include "support/gpu_context.h"
+#include "support/scenes.h"
+
+namespace airlight::surface_shadows {
+namespace {
+
+using tests::builtin;
+using tests::view_of;
+
+struct Wrong {
+  std::size_t pixels, wrong;
+};
+
+/// Pixels that see a surface, and those among them that are lit here and dark there.
+Wrong compare(const scene::Geometry& geometry, const scene::View& view, int shadow_map_size) {
+  frame::Frame frame(tests::gpu_context(), geometry, shadow_map_size);
+  ShadowMapLookup lookup;
+  frame::NoAirlight no_airlight;
+  gpu::StageTimer timer(nullptr);
+  frame.render(view, lookup, no_airlight, timer);
+  const frame::FrameImages images = frame.read();
+  const reference::SurfaceImage exact = reference::Reference(geometry, view).surfaces();
+  Wrong count{0, 0};
+  for (std::size_t i = 0; i < images.visibility.size(); ++i) {
+    if (images.distance[i] == 0.0f || exact.distance[i] == 0.0f) continue;
+    ++count.pixels;
+    count.wrong += images.visibility[i] != exact.visibility[i];
+  }
+  return count;
+}
+
+class ShadowMapLookupOf : public testing::TestWithParam<const char*> {};
+
+TEST_P(ShadowMapLookupOf, IsWrongOnlyWithinATexelOfAnEdge) {
+  const scene::Scene& scene = builtin(GetParam());
+  const Wrong coarse = compare(scene.geometry, view_of(scene, {128, 128}), 256);
+  const Wrong fine = compare(scene.geometry, view_of(scene, {128, 128}), 2048);
+  RecordProperty("coarse", std::to_string(static_cast<double>(coarse.wrong) / static_cast<double>(coarse.pixels)));
+  RecordProperty("fine", std::to_string(static_cast<double>(fine.wrong) / static_cast<double>(fine.pixels)));
+  EXPECT_LE(fine.wrong, coarse.wrong);
+  EXPECT_LE(static_cast<double>(fine.wrong), 0.02 * static_cast<double>(fine.pixels)) << "no acne, no missing shadow";
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ShadowMapLookupOf, testing::Values("cornell", "window", "sphere", "half-space"));
+
+TEST(ShadowMapLookup, ALonePlaneIsLitWhollyAtAnySlope) {
+  scene::Geometry plane;
+  tests::add_quad(plane, {-50, 0, -50}, {100, 0, 0}, {0, 0, 100});
+  scene::View view;
+  view.camera.eye = {0, 4, 8};
+  view.camera.target = {0, 0, 0};
+  view.size = {64, 64};
+  for (double height : {5.0, 0.5, 0.05}) {
+    view.light.position = {1, height, -1};
+    const Wrong count = compare(plane, view, 512);
+    EXPECT_EQ(count.wrong, 0u) << "of " << count.pixels << " with the light at " << height;
+  }
+}
+
+}  // namespace
+}  // namespace airlight::surface_shadows

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "epipolar/volume.h"
+#include "frame/frame.h"
+#include "support/gpu_context.h"
+
+namespace airlight::tests {
+
+/// Plugs into the frame where airlight does, and looks at what a method is given.
+class FrameProbe : public frame::Airlight {
+ public:
+  using Look = std::function<void(const frame::FrameInputs&)>;
+  explicit FrameProbe(Look look) : look_(std::move(look)) {}
+  bool needs_shadow_map() const override { return true; }
+  void integrate(const frame::FrameInputs& inputs, const gpu::Texture&) override { look_(inputs); }
+
+ private:
+  Look look_;
+};
+
+/// Renders a frame up to where airlight plugs in, and calls `look` there.
+inline void look_into_frame(const scene::Geometry& geometry, const scene::View& view, int shadow_map_size,
+                            const FrameProbe::Look& look) {
+  frame::Frame frame(gpu_context(), geometry, shadow_map_size);
+  frame::NoShadow no_shadow;
+  FrameProbe probe(look);
+  gpu::StageTimer timer(nullptr);
+  frame.render(view, no_shadow, probe, timer);
+}
+
+/// Distances of the surfaces seen, along the unit view rays [m]; 0 for none.
+inline std::vector<float> distances(const frame::FrameInputs& inputs) {
+  std::vector<float> distances;
+  for (const glm::vec4& surface : inputs.surfaces.read<glm::vec4>()) distances.push_back(surface.w);
+  return distances;
+}
+
+/// Builds a shadow volume whose cells in φ grow by `growth` (shaders/epipolar/grid.glsl).
+inline void build(const epipolar::ShadowVolume& volume, const frame::FrameInputs& inputs, float growth) {
+  volume.find_ranges(inputs);
+  std::vector<float> range = volume.grid().phi_range().read<float>();
+  range.at(1) = growth;
+  volume.grid().phi_range().write(range.data(), volume.grid().phi_range().bytes());
+  volume.fill(inputs);
+}
+
+}  // namespace airlight::tests

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "gpu/context.h"
+
+namespace airlight::tests {
+
+/// The GL context of this test program: made once, by whoever asks first.
+inline gpu::Context& gpu_context() {
+  static gpu::Context context;
+  return context;
+}
+
+}  // namespace airlight::tests

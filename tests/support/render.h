@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "frame/frame.h"
+#include "media/vsv.h"
+#include "quality/metrics.h"
+#include "reference/reference.h"
+#include "support/gpu_context.h"
+
+namespace airlight::tests {
+
+/// What an image by voxelized shadow volumes depends on, beside the view.
+struct VsvSettings {
+  epipolar::Resolution resolution{256, 1024, 512};
+  media::VsvIntegral integral = media::VsvIntegral::table;
+  int shadow_map = 1024;
+  epipolar::Scan scan = epipolar::Scan::column;
+  media::PhiCells phi_cells = media::PhiCells::growing;
+};
+
+/// Renders with `vsv` and the given surface shadow, none by default.
+inline frame::FrameImages render_vsv(const scene::Geometry& geometry, const scene::View& view,
+                                     const VsvSettings& settings = {}, frame::SurfaceShadow* surface_shadow = nullptr) {
+  frame::Frame frame(gpu_context(), geometry, settings.shadow_map);
+  frame::NoShadow no_shadow;
+  media::Vsv vsv(gpu_context(), settings.resolution, settings.integral, settings.scan, settings.phi_cells);
+  gpu::StageTimer timer(nullptr);
+  frame.render(view, surface_shadow ? *surface_shadow : no_shadow, vsv, timer);
+  return frame.read();
+}
+
+inline std::span<const float> values(const std::vector<glm::vec3>& image) { return {&image.data()->x, 3 * image.size()}; }
+
+/// See quality::airlight_error, which refuses NaN and infinity.
+inline quality::AirlightError error_of(const std::vector<glm::vec3>& image, const std::vector<glm::vec3>& reference) {
+  return quality::airlight_error(values(image), values(reference));
+}
+
+/// The truth of a view.
+struct Truth {
+  reference::SurfaceImage surfaces;
+  reference::AirlightImage airlight;
+};
+
+inline Truth trace(const scene::Geometry& geometry, const scene::View& view, int samples) {
+  const reference::Reference reference(geometry, view);
+  return {.surfaces = reference.surfaces(), .airlight = reference.converged(samples)};
+}
+
+/// The error over the pixels where both see the same surface: rasterisation snaps corners to 1/256 pixel, so that a pixel
+/// centre that near to a silhouette may see past it, or not, and all the airlight behind. Those pixels must be few.
+inline quality::AirlightError error_of(const frame::FrameImages& images, const Truth& truth) {
+  std::vector<glm::vec3> image, reference;
+  for (std::size_t i = 0; i < images.airlight.size(); ++i) {
+    const float expected = truth.surfaces.distance[i];
+    if (std::abs(images.distance[i] - expected) > 1e-3f * expected) continue;
+    image.push_back(images.airlight[i]);
+    reference.push_back(truth.airlight.radiance[i]);
+  }
+  EXPECT_LE(images.airlight.size() - image.size(), 1 + images.airlight.size() / 500);
+  return error_of(image, reference);
+}
+
+}  // namespace airlight::tests

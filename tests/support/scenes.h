@@ -1,0 +1,51 @@
+#pragma once
+
+#include <map>
+#include <string_view>
+
+#include "scene/builtin.h"
+#include "scene/scene.h"
+
+namespace airlight::tests {
+
+/// A built-in scene, made once a program.
+inline const scene::Scene& builtin(std::string_view name) {
+  static std::map<std::string_view, scene::Scene> scenes;
+  const scene::BuiltinScene& builtin = *scene::find_builtin(name);
+  const auto kept = scenes.find(builtin.name);
+  return kept != scenes.end() ? kept->second : scenes.emplace(builtin.name, builtin.make()).first->second;
+}
+
+/// The view that a scene brings along.
+inline scene::View view_of(const scene::Scene& scene, glm::ivec2 size) {
+  return {.camera = scene.cameras.at(0), .light = scene.lights.at(0), .medium = scene.medium, .size = size};
+}
+
+/// Adds the triangle (a, b, c).
+inline void add_triangle(scene::Geometry& geometry, glm::vec3 a, glm::vec3 b, glm::vec3 c) {
+  if (geometry.materials.empty()) geometry.materials.emplace_back();
+  const auto first = static_cast<std::uint32_t>(geometry.positions.size());
+  geometry.positions.insert(geometry.positions.end(), {a, b, c});
+  geometry.triangles.emplace_back(first, first + 1, first + 2);
+  geometry.material_of_triangle.push_back(0);
+}
+
+/// Adds the parallelogram corner, corner + u, corner + u + v, corner + v.
+inline void add_quad(scene::Geometry& geometry, glm::vec3 corner, glm::vec3 u, glm::vec3 v) {
+  add_triangle(geometry, corner, corner + u, corner + u + v);
+  add_triangle(geometry, corner, corner + u + v, corner + v);
+}
+
+/// Adds the faces of a box.
+inline void add_box(scene::Geometry& geometry, glm::vec3 lower, glm::vec3 upper) {
+  const glm::vec3 size = upper - lower;
+  const glm::vec3 x(size.x, 0, 0), y(0, size.y, 0), z(0, 0, size.z);
+  add_quad(geometry, lower, x, y);
+  add_quad(geometry, lower, y, z);
+  add_quad(geometry, lower, z, x);
+  add_quad(geometry, lower + z, x, y);
+  add_quad(geometry, lower + x, y, z);
+  add_quad(geometry, lower + y, z, x);
+}
+
+}  // namespace airlight::tests

@@ -1,0 +1,110 @@
+#include "quality/metrics.h"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "scene/error.h"
+
+namespace airlight::quality {
+namespace {
+
+constexpr double k_infinity = std::numeric_limits<double>::infinity();
+
+TEST(AirlightError, MatchesTwoByTwoImagesWorkedOutByHand) {
+  // Mean of r: 2. Differences: 1, 0, 0, −2.
+  const std::vector<float> r{1, 1, 2, 4}, x{2, 1, 2, 2};
+  const AirlightError error = airlight_error(x, r);
+  EXPECT_DOUBLE_EQ(error.bias, 7.0 / 8.0 - 1.0);
+  EXPECT_DOUBLE_EQ(error.rmse, std::sqrt(5.0 / 4.0));
+  EXPECT_DOUBLE_EQ(error.rrmse, std::sqrt(5.0 / 4.0) / 2.0);
+  EXPECT_DOUBLE_EQ(error.mae, 0.75 / 2.0);
+  EXPECT_DOUBLE_EQ(error.p99, 1.0);
+  EXPECT_DOUBLE_EQ(error.max, 1.0);
+  // ε = 1e-2 · 2² = 0.04.
+  EXPECT_DOUBLE_EQ(error.relmse, (1.0 / 1.04 + 4.0 / 16.04) / 4.0);
+  EXPECT_DOUBLE_EQ(error.psnr, 20.0 * std::log10(4.0 / std::sqrt(5.0 / 4.0)));
+}
+
+TEST(AirlightError, IsTakenFromTheReference) {
+  const std::vector<float> a{1, 1, 2, 4}, b{2, 1, 2, 2};
+  EXPECT_DOUBLE_EQ(airlight_error(b, a).bias, -0.125);
+  EXPECT_DOUBLE_EQ(airlight_error(a, b).bias, 1.0 / 7.0);
+}
+
+TEST(AirlightError, OfEqualImagesIsZero) {
+  const std::vector<float> image{0, 1, 2, 3};
+  const AirlightError error = airlight_error(image, image);
+  for (double value : {error.bias, error.rmse, error.rrmse, error.mae, error.p99, error.max, error.relmse}) {
+    EXPECT_EQ(value, 0.0);
+  }
+  EXPECT_EQ(error.psnr, k_infinity);
+}
+
+TEST(AirlightError, P99IsTheSmallestValueThat99PercentDoNotExceed) {
+  // Differences 1, 2, … 200 against a reference of mean 1: 198 of them are at most 198.
+  std::vector<float> r(200, 1.0f), x(200);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = 1.0f + static_cast<float>((i * 7) % 200 + 1);
+  EXPECT_DOUBLE_EQ(airlight_error(x, r).p99, 198.0);
+  EXPECT_DOUBLE_EQ(airlight_error(x, r).max, 200.0);
+  // Of 101, 100 must not exceed it: the largest is left out.
+  r.assign(101, 1.0f);
+  x.assign(101, 2.0f);
+  x[50] = 9.0f;
+  EXPECT_DOUBLE_EQ(airlight_error(x, r).p99, 1.0);
+}
+
+TEST(AirlightError, OfABlackReferenceIsZeroOrInfinite) {
+  const std::vector<float> black(4, 0.0f), x{0, 0, 0, 1};
+  AirlightError error = airlight_error(black, black);
+  for (double value : {error.bias, error.rrmse, error.mae, error.p99, error.max, error.relmse})
+    EXPECT_EQ(value, 0.0);
+  error = airlight_error(x, black);
+  for (double value : {error.bias, error.rrmse, error.mae, error.p99, error.max, error.relmse}) {
+    EXPECT_EQ(value, k_infinity);
+  }
+  EXPECT_DOUBLE_EQ(error.rmse, 0.5);
+}
+
+TEST(AirlightError, AddsUpLargeImagesInDoublePrecision) {
+  // In single precision the sum of 2²⁵ ones would stop at 2²⁴.
+  const std::vector<float> r(std::size_t{1} << 25, 1.0f);
+  std::vector<float> x(r);
+  x[0] = 1.5f;
+  EXPECT_NEAR(airlight_error(x, r).bias, 0.5 / static_cast<double>(r.size()), 1e-15);
+}
+
+TEST(AirlightError, RefusesNaNAndInfinity) {
+  const std::vector<float> good{1, 2, 3};
+  for (float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    const std::vector<float> image{1, bad, 3};
+    EXPECT_THROW(airlight_error(image, good), scene::Error);
+    EXPECT_THROW(airlight_error(good, image), scene::Error);
+  }
+}
+
+TEST(AirlightError, RefusesDifferentLengthsAndNoPixels) {
+  const std::vector<float> three(3, 1.0f), four(4, 1.0f), none;
+  EXPECT_THROW(airlight_error(three, four), scene::Error);
+  EXPECT_THROW(airlight_error(none, none), scene::Error);
+}
+
+TEST(SurfaceError, CountsPixelsThatHitInBothAndDiffer) {
+  const std::vector<float> visibility{1, 0, 1, 0, 0.5f, 1}, distance{1, 1, 0, 1, 1, 1};
+  const std::vector<float> reference{1, 1, 0, 1, 1, 0}, reference_distance{2, 2, 2, 0, 2, 2};
+  const SurfaceError error = surface_error(visibility, distance, reference, reference_distance);
+  EXPECT_EQ(error.pixels, 4u);
+  EXPECT_EQ(error.wrong_pixels, 2u);
+}
+
+TEST(SurfaceError, RefusesNaNAndDifferentLengths) {
+  const std::vector<float> good{1, 1}, bad{1, std::numeric_limits<float>::quiet_NaN()}, longer{1, 1, 1};
+  EXPECT_THROW(surface_error(bad, good, good, good), scene::Error);
+  EXPECT_THROW(surface_error(good, good, good, bad), scene::Error);
+  EXPECT_THROW(surface_error(good, good, longer, longer), scene::Error);
+}
+
+}  // namespace
+}  // namespace airlight::quality

@@ -1,0 +1,163 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "reference/phase.h"
+#include "reference/reference.h"
+#include "scene/scene.h"
+
+/// What the tests of the reference share: geometry made by code, views of one pixel, and the airlight
+/// integrated over the distance t instead of over φ, by a quadrature of its own.
+namespace airlight::reference::tests {
+
+inline void add_triangle(scene::Geometry& geometry, glm::vec3 a, glm::vec3 b, glm::vec3 c) {
+  if (geometry.materials.empty()) geometry.materials.emplace_back();
+  const auto first = static_cast<std::uint32_t>(geometry.positions.size());
+  geometry.positions.insert(geometry.positions.end(), {a, b, c});
+  geometry.triangles.emplace_back(first, first + 1, first + 2);
+  geometry.material_of_triangle.push_back(0);
+}
+
+/// The parallelogram corner, corner + u, corner + u + v, corner + v.
+inline void add_quad(scene::Geometry& geometry, glm::vec3 corner, glm::vec3 u, glm::vec3 v) {
+  add_triangle(geometry, corner, corner + u, corner + u + v);
+  add_triangle(geometry, corner, corner + u + v, corner + v);
+}
+
+inline void add_box(scene::Geometry& geometry, glm::vec3 lower, glm::vec3 upper) {
+  const glm::vec3 size = upper - lower;
+  const glm::vec3 x(size.x, 0, 0), y(0, size.y, 0), z(0, 0, size.z);
+  add_quad(geometry, lower, x, y);
+  add_quad(geometry, lower, y, z);
+  add_quad(geometry, lower, z, x);
+  add_quad(geometry, lower + z, x, y);
+  add_quad(geometry, lower + x, y, z);
+  add_quad(geometry, lower + y, z, x);
+}
+
+/// A sphere of 2·`rings` × `rings` quads, its vertices on the sphere.
+inline void add_sphere(scene::Geometry& geometry, glm::vec3 centre, float radius, int rings) {
+  const auto vertex = [&](int ring, int segment) {
+    const double polar = std::numbers::pi * ring / rings, azimuth = std::numbers::pi * segment / rings;
+    return centre + radius * glm::vec3(std::sin(polar) * std::cos(azimuth), std::cos(polar),
+                                       std::sin(polar) * std::sin(azimuth));
+  };
+  for (int ring = 0; ring < rings; ++ring) {
+    for (int segment = 0; segment < 2 * rings; ++segment) {
+      const glm::vec3 a = vertex(ring, segment), b = vertex(ring + 1, segment);
+      const glm::vec3 c = vertex(ring + 1, segment + 1), d = vertex(ring, segment + 1);
+      if (ring + 1 < rings) add_triangle(geometry, a, b, c);
+      if (ring > 0) add_triangle(geometry, a, c, d);
+    }
+  }
+}
+
+/// Slats of several widths at many angles, the same at every call: a view ray crosses the shadow of dozens.
+inline scene::Geometry clutter(int slats) {
+  scene::Geometry geometry;
+  std::uint32_t state = 1;
+  const auto random = [&] {  // Numerical Recipes' linear congruential generator
+    state = state * 1664525u + 1013904223u;
+    return static_cast<float>(state >> 8) / 16777216.0f;
+  };
+  for (int i = 0; i < slats; ++i) {
+    const glm::vec3 centre(4 * random() - 2, 4 * random() - 2, 4 * random() - 2);
+    const glm::vec3 along = glm::normalize(glm::vec3(random(), random(), random()) - 0.5f);
+    const glm::vec3 across =
+        glm::normalize(glm::cross(along, glm::vec3(random(), random(), random()) - 0.5f));
+    const float length = 0.3f + random(), width = 0.01f + 0.1f * random();
+    add_quad(geometry, centre - 0.5f * (length * along + width * across), length * along, width * across);
+  }
+  return geometry;
+}
+
+/// A view of one pixel, 0.01° high, from the eye at the origin along +Z; the light at a distance D and an
+/// angle α.
+inline scene::View one_pixel_view(double D, double alpha, const scene::Medium& medium = {}) {
+  scene::View view;
+  view.camera.target = {0, 0, 1};
+  view.camera.vertical_fov_degrees = 0.01;
+  view.light.position = D * glm::dvec3(0, std::sin(alpha), std::cos(alpha));
+  view.light.intensity = {2, 3, 5};
+  view.medium = medium;
+  view.size = {1, 1};
+  return view;
+}
+
+/// A small image of the clutter around the origin, the light in its midst.
+inline scene::View clutter_view(int size) {
+  scene::View view;
+  view.camera.eye = {0.5, 1, 6};
+  view.camera.target = {0, 0, 0};
+  view.light.position = {0.3, 0.2, -0.4};
+  view.light.intensity = {2, 3, 5};
+  view.medium.sigma_s = {0.1f, 0.2f, 0.3f};
+  view.size = {size, size};
+  return view;
+}
+
+/// ∫ f over [a, b] by Simpson's rule, halved until it settles; NaN settles at once.
+template <class Function>
+double integrate(const Function& f, double a, double b, double tolerance, int depth = 30) {
+  const auto simpson = [](double fa, double fm, double fb, double width) {
+    return width / 6 * (fa + 4 * fm + fb);
+  };
+  const auto refine = [&](const auto& self, double from, double to, double fa, double fm, double fb,
+                          double whole, double limit, int left) -> double {
+    const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
+    const double fl = f(from + 0.5 * half), fr = f(middle + 0.5 * half);
+    const double lower = simpson(fa, fl, fm, half), upper = simpson(fm, fr, fb, half);
+    const double change = lower + upper - whole;
+    if (left == 0 || !(std::abs(change) > 15 * limit + 1e-14 * std::abs(whole)))
+      return lower + upper + change / 15;
+    return self(self, from, middle, fa, fl, fm, lower, 0.5 * limit, left - 1) +
+           self(self, middle, to, fm, fr, fb, upper, 0.5 * limit, left - 1);
+  };
+  const double fa = f(a), fb = f(b), fm = f(0.5 * (a + b));
+  return refine(refine, a, b, fa, fm, fb, simpson(fa, fm, fb, b - a), tolerance, depth);
+}
+
+/// The airlight of the part [t_from, t_to] of a view ray, every point of it lit: the integral over t of
+/// σ_s e^{−σ(t+r)} p I/r², to 1e-9. An infinite t_to ends where e^{−σt} is e^{−60}.
+inline glm::dvec3 airlight_over_distance(const scene::View& view, double alpha, double t_from, double t_to) {
+  const double D = glm::length(view.light.position - view.camera.eye);
+  const double nearest_t = D * std::cos(alpha), nearest_r = D * std::sin(alpha);
+  glm::dvec3 radiance(0.0);
+  for (int channel = 0; channel < 3; ++channel) {
+    const auto sigma_s = static_cast<double>(view.medium.sigma_s[channel]);
+    const double sigma_t = sigma_s + static_cast<double>(view.medium.sigma_a[channel]);
+    if (sigma_s == 0.0) continue;
+    const auto integrand = [&](double t) {
+      const double r = std::hypot(t - nearest_t, nearest_r);
+      const double cosine = (nearest_t - t) / r;
+      return sigma_s * std::exp(-sigma_t * (t + r)) *
+             phase(view.medium.phase, static_cast<double>(view.medium.g), cosine) *
+             static_cast<double>(view.light.intensity[channel]) / (r * r);
+    };
+    const double end = std::min(t_to, t_from + 60 / sigma_t + 2 * D);
+    // Split around the point nearest to the light, where the integrand may be a narrow peak.
+    std::vector<double> ends{t_from};
+    for (double offset : {-1000.0, -100.0, -10.0, -1.0, 0.0, 1.0, 10.0, 100.0, 1000.0}) {
+      const double t = nearest_t + offset * nearest_r;
+      if (t > ends.back() && t < end) ends.push_back(t);
+    }
+    ends.push_back(end);
+    double estimate = 0.0;
+    for (double tolerance : {1e-3, 0.0}) {  // first for the magnitude, then to a tolerance relative to it
+      double sum = 0.0;
+      for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+        sum += integrate(integrand, ends[i], ends[i + 1],
+                         tolerance > 0 ? tolerance * sigma_s : 1e-11 * estimate);
+      }
+      estimate = sum;
+    }
+    radiance[channel] = estimate;
+  }
+  return radiance;
+}
+
+}  // namespace airlight::reference::tests

@@ -1,0 +1,249 @@
+#include <algorithm>
+#include <stdexcept>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "quality/metrics.h"
+#include "scene/error.h"
+#include "unit/reference/fixtures.h"
+
+/// Shadows whose place is known in closed form, and the places where rays go wrong.
+namespace airlight::reference {
+namespace {
+
+using tests::airlight_over_distance;
+using tests::one_pixel_view;
+
+constexpr double k_infinity = std::numeric_limits<double>::infinity();
+
+std::vector<float> values(const AirlightImage& image) {
+  std::vector<float> result;
+  for (const glm::vec3& radiance : image.radiance) {
+    for (int channel = 0; channel < 3; ++channel) result.push_back(radiance[channel]);
+  }
+  return result;
+}
+
+/// The rrmse of a against b. Refuses NaN and infinity.
+double rrmse(const AirlightImage& a, const AirlightImage& b) {
+  return quality::airlight_error(values(a), values(b)).rrmse;
+}
+
+/// A light at a height of 2 above the view ray from the origin along +Z, 3 ahead of the eye.
+scene::View overhead_light() {
+  scene::View view = one_pixel_view(1.0, 0.0, {.sigma_s = {0.05f, 0.1f, 0.5f}, .sigma_a = glm::vec3(0.02f)});
+  view.light.position = {0, 2, 3};
+  return view;
+}
+
+double alpha_of(const scene::View& view) {
+  return std::atan2(view.light.position.y, view.light.position.z);
+}
+
+TEST(Occluders, AHalfPlaneShadowsTheRayUpToItsEdge) {
+  const scene::View view = overhead_light();
+  // At half the light's height, an edge at z casts its shadow's edge at 2z − 3 of the ray.
+  scene::Geometry geometry;
+  tests::add_quad(geometry, {-0.5f, 1, 4}, {1, 0, 0}, {0, 0, -3});
+  const AirlightImage image = Reference(geometry, view).converged(64);
+  const glm::dvec3 expected = airlight_over_distance(view, alpha_of(view), 5.0, k_infinity);
+  // The edge is known to 1e-6 of the range of φ.
+  for (int channel = 0; channel < 3; ++channel) {
+    EXPECT_NEAR(static_cast<double>(image.radiance[0][channel]) / expected[channel], 1.0, 1e-5);
+  }
+  EXPECT_EQ(image.self_error, 0.0) << "one edge is found however few samples there are";
+  // A sample more than steps; a step is 15625 times the resolution, less than 2¹⁴.
+  EXPECT_EQ(image.rays, 65u + 14u);
+}
+
+TEST(Occluders, ASlitLightsTheRayBetweenItsEdges) {
+  const scene::View view = overhead_light();
+  scene::Geometry geometry;
+  tests::add_quad(geometry, {-0.5f, 1, 4}, {1, 0, 0}, {0, 0, -3});
+  tests::add_quad(geometry, {-0.5f, 1, 4.5f}, {1, 0, 0}, {0, 0, 100});
+  const AirlightImage image = Reference(geometry, view).converged(256);
+  const glm::dvec3 expected = airlight_over_distance(view, alpha_of(view), 5.0, 6.0);
+  // Embree's robust mode widens a triangle by 1e-7 of its size, here by 1e-5 of the slit.
+  for (int channel = 0; channel < 3; ++channel) {
+    EXPECT_NEAR(static_cast<double>(image.radiance[0][channel]) / expected[channel], 1.0, 5e-5);
+  }
+}
+
+TEST(Occluders, ASphereShadowsTheRayBetweenItsTangents) {
+  const scene::View view = overhead_light();
+  const glm::dvec3 centre(0, 1, 3.5);
+  const double radius = 0.25;
+  scene::Geometry geometry;
+  tests::add_sphere(geometry, centre, static_cast<float>(radius), 512);
+  const AirlightImage image = Reference(geometry, view).converged(256);
+  // Angles from straight down to the tangents, and where those meet the ray.
+  const glm::dvec3 to_centre = centre - view.light.position;
+  const double middle = std::atan2(to_centre.z, -to_centre.y),
+               half = std::asin(radius / glm::length(to_centre));
+  const double from = 3 + 2 * std::tan(middle - half), to = 3 + 2 * std::tan(middle + half);
+  const double alpha = alpha_of(view);
+  const glm::dvec3 expected =
+      airlight_over_distance(view, alpha, 0.0, from) + airlight_over_distance(view, alpha, to, k_infinity);
+  // The facets cut the sphere short by (π/512)²/8 of its radius.
+  for (int channel = 0; channel < 3; ++channel) {
+    EXPECT_NEAR(static_cast<double>(image.radiance[0][channel]) / expected[channel], 1.0, 2e-5);
+  }
+}
+
+TEST(Occluders, MarchApproachesTheConvergedImageAsStepsGrow) {
+  const Reference reference(tests::clutter(150), tests::clutter_view(24));
+  const AirlightImage converged = reference.converged(1024);
+  double coarser = 1.0;
+  for (int samples : {16, 64, 256, 1024}) {
+    const double error = rrmse(reference.march(samples, RayMode::packet), converged);
+    // Each shadow edge is off by up to half a step, at random: four times the steps leave a quarter of the
+    // error.
+    EXPECT_LT(error, 0.45 * coarser) << samples;
+    coarser = error;
+  }
+  EXPECT_LT(coarser, 2e-3);
+}
+
+TEST(Occluders, SingleRaysAndPacketsSeeTheSame) {
+  const Reference reference(tests::clutter(150), tests::clutter_view(24));
+  const AirlightImage single = reference.march(100, RayMode::single),
+                      packet = reference.march(100, RayMode::packet);
+  EXPECT_EQ(single.rays, 24u * 24u * 100u);
+  EXPECT_EQ(packet.rays, single.rays);
+  EXPECT_GT(single.ms, 0.0);
+  // Rays that graze an edge may be rounded either way: one step of a hundred in few pixels.
+  EXPECT_LT(rrmse(single, packet), 1e-3);
+}
+
+TEST(Occluders, SelfErrorFallsWithSamplesAndPredictsTheTrueError) {
+  const Reference reference(tests::clutter(150), tests::clutter_view(24));
+  double coarser = k_infinity;
+  for (int samples : {16, 32, 64, 128}) {
+    const AirlightImage image = reference.converged(samples);
+    const double actual = rrmse(image, reference.converged(8 * samples));
+    EXPECT_LT(image.self_error, coarser);
+    EXPECT_GT(image.self_error, 0.7 * actual) << samples;
+    EXPECT_LT(image.self_error, 5 * actual) << samples;
+    coarser = image.self_error;
+  }
+}
+
+TEST(Occluders, SelfErrorIsTheChangeFromHalfAsManySamples) {
+  const Reference reference(tests::clutter(150), tests::clutter_view(24));
+  for (int samples : {16, 64}) {
+    const AirlightImage fine = reference.converged(2 * samples);
+    // Where a step holds several changes, halving it may end at another of them.
+    EXPECT_NEAR(fine.self_error / rrmse(reference.converged(samples), fine), 1.0, 0.03) << samples;
+  }
+}
+
+TEST(Occluders, ALightOnASurfaceShinesToEitherSide) {
+  // A slanted plane through the light, whose corners are not exact in binary.
+  scene::Medium medium{.sigma_s = glm::vec3(0.1f)};
+  const scene::View view = one_pixel_view(3.0, 2.5, medium);
+  const glm::vec3 light = view.light.position;
+  const AirlightImage free = Reference({}, view).converged(64);
+  for (float tilt : {0.0f, 0.1f, 0.3f}) {
+    const glm::vec3 u(0.7f, tilt, 0.1f), v(0.1f, tilt, 1.3f);
+    scene::Geometry geometry;
+    tests::add_quad(geometry, light - 0.31f * u - 0.47f * v, u, v);
+    const AirlightImage image = Reference(geometry, view).converged(64);
+    EXPECT_LT(rrmse(image, free), 1e-6) << tilt;
+  }
+}
+
+TEST(Occluders, AClosedBoxAroundTheLightLetsNothingOut) {
+  scene::View view = tests::clutter_view(32);
+  scene::Geometry geometry;
+  tests::add_box(geometry, {-1, -1, -1}, {1, 1, 1});
+  const Reference reference(geometry, view);
+  const AirlightImage free = Reference({}, view).converged(8);
+  // Rays that end on the box end within rounding of its surface: 1e-6 of their range may leak.
+  AirlightImage image = reference.converged(64);
+  for (std::size_t i = 0; i < image.radiance.size(); ++i) {
+    EXPECT_LE(image.radiance[i].r, 1e-5f * free.radiance[i].r) << i;
+  }
+  image = reference.march(64, RayMode::packet);
+  for (const glm::vec3& radiance : image.radiance) EXPECT_EQ(radiance, glm::vec3(0.0f));
+  image = reference.march(64, RayMode::single);
+  for (const glm::vec3& radiance : image.radiance) EXPECT_EQ(radiance, glm::vec3(0.0f));
+}
+
+TEST(Occluders, FacetedSphereAroundTheLightHasNoCracks) {
+  scene::View view = tests::clutter_view(32);
+  scene::Geometry geometry;
+  tests::add_sphere(geometry, {0.1f, 0.1f, -0.2f}, 1.0f, 200);
+  const Reference reference(geometry, view);
+  for (RayMode mode : {RayMode::single, RayMode::packet}) {
+    const AirlightImage image = reference.march(1024, mode);
+    for (const glm::vec3& radiance : image.radiance) EXPECT_EQ(radiance, glm::vec3(0.0f));
+  }
+}
+
+TEST(Occluders, FarFromTheOriginNothingChanges) {
+  // At 2²⁰ m single precision knows eighths of a metre: the geometry is given in those, eye and light are
+  // not.
+  scene::Geometry geometry = tests::clutter(150);
+  for (glm::vec3& position : geometry.positions) position = glm::round(position * (32 * 8.0f)) / 8.0f;
+  scene::View view = tests::clutter_view(24);
+  view.camera.eye *= 32;
+  view.light.position *= 32;
+  view.medium.sigma_s /= 32;
+  const AirlightImage near = Reference(geometry, view).converged(128);
+  const SurfaceImage near_surfaces = Reference(geometry, view).surfaces();
+
+  const glm::dvec3 offset(1048576, -1048576, 1048576);
+  for (glm::vec3& position : geometry.positions) position += glm::vec3(offset);
+  view.camera.eye += offset;
+  view.camera.target += offset;
+  view.light.position += offset;
+  const Reference reference(geometry, view);
+  // Eye and light are rounded to 1e-10 m there, and rays at edges may fall either way.
+  EXPECT_LT(rrmse(reference.converged(128), near), 1e-4);
+  const SurfaceImage far_surfaces = reference.surfaces();
+  std::size_t differing = 0;
+  for (std::size_t i = 0; i < near_surfaces.distance.size(); ++i) {
+    if (std::abs(far_surfaces.distance[i] - near_surfaces.distance[i]) > 1e-4f) ++differing;
+  }
+  EXPECT_LE(differing, 1u);
+}
+
+TEST(Occluders, RefusesTooFewSamples) {
+  const Reference reference({}, one_pixel_view(1.0, 1.0));
+  EXPECT_THROW(reference.converged(1), scene::Error);
+  EXPECT_THROW(reference.march(0, RayMode::packet), scene::Error);
+}
+
+TEST(Occluders, OddSampleCountsWork) {
+  const Reference reference(tests::clutter(150), tests::clutter_view(24));
+  EXPECT_LT(rrmse(reference.converged(1023), reference.converged(1024)), 5e-3);
+  EXPECT_LT(rrmse(reference.march(1023, RayMode::packet), reference.converged(1024)), 5e-3);
+}
+
+TEST(Occluders, RefusesALightAtTheEye) {
+  scene::View view = one_pixel_view(1.0, 1.0);
+  view.light.position = view.camera.eye;
+  EXPECT_THROW(Reference({}, view), scene::Error);
+}
+
+TEST(Occluders, ProgressComesOnTheCallingThreadAndEndsAtOne) {
+  const Reference reference(tests::clutter(20), tests::clutter_view(16));
+  const auto caller = std::this_thread::get_id();
+  std::vector<double> fractions;
+  const auto progress = [&](double fraction) {
+    EXPECT_EQ(std::this_thread::get_id(), caller);
+    fractions.push_back(fraction);
+  };
+  reference.converged(64, progress);
+  ASSERT_FALSE(fractions.empty());
+  EXPECT_EQ(fractions.back(), 1.0);
+  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+  const auto cancel = [](double fraction) {
+    if (fraction < 1) throw std::runtime_error("cancelled");
+  };
+  EXPECT_THROW(reference.surfaces(cancel), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace airlight::reference

@@ -1,0 +1,148 @@
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "epipolar/space_math.h"
+#include "support/random.h"
+
+/// shaders/epipolar/grid.glsl: which cell holds what.
+namespace airlight::shaders {
+namespace {
+
+EpipolarBlock make_range(float alpha_min, float alpha_max, uint count) {
+  EpipolarBlock space{};
+  space.alpha_min = alpha_min;
+  space.alpha_step = (alpha_max - alpha_min) / static_cast<float>(count);
+  return space;
+}
+
+class ThetaCell : public testing::TestWithParam<uint> {};
+
+TEST_P(ThetaCell, OfEachCentreIsThatCell) {
+  for (uint j = 0; j < GetParam(); ++j) EXPECT_EQ(theta_cell(theta_centre(j, GetParam()), GetParam()), j);
+}
+
+TEST_P(ThetaCell, WrapsAtPi) {
+  const uint count = GetParam();
+  EXPECT_EQ(theta_cell(-k_pi, count), 0u);
+  EXPECT_EQ(theta_cell(k_pi, count), count - 1);
+  EXPECT_EQ(theta_cell(std::nextafter(k_pi, 4.0f), count), count - 1);
+  EXPECT_EQ(theta_cell(std::nextafter(-k_pi, -4.0f), count), 0u);
+  // The first and the last centre are one step apart across the seam.
+  EXPECT_NEAR(theta_centre(0, count) + 2.0f * k_pi - theta_centre(count - 1, count), theta_step(count), 1e-6f);
+}
+
+TEST_P(ThetaCell, HoldsWhatIsNearerToItsCentreThanToOthers) {
+  tests::Random random(10);
+  const uint count = GetParam();
+  for (int i = 0; i < 10000; ++i) {
+    const auto theta = static_cast<float>(random.uniform(-3.14159265, 3.14159265));
+    const uint j = theta_cell(theta, count);
+    ASSERT_LT(j, count);
+    // θ + π carries a rounding of 2⁻²² at most.
+    EXPECT_LE(std::abs(theta - theta_centre(j, count)), 0.5f * theta_step(count) + 1e-6f);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Counts, ThetaCell, testing::Values(1u, 2u, 3u, 64u, 333u, 2048u, 16384u));
+
+TEST(AlphaCell, OfEachCentreIsThatCell) {
+  for (uint count : {1u, 5u, 512u, 4096u}) {
+    const EpipolarBlock space = make_range(0.7f, 1.9f, count);
+    for (uint i = 0; i < count; ++i) {
+      const float centre = space.alpha_min + (static_cast<float>(i) + 0.5f) * space.alpha_step;
+      EXPECT_EQ(alpha_cell(space, centre, count), i);
+    }
+  }
+}
+
+TEST(AlphaCell, IsTheNearestOutsideTheRange) {
+  const EpipolarBlock space = make_range(0.7f, 1.9f, 16);
+  EXPECT_EQ(alpha_cell(space, 0.0f, 16), 0u);
+  EXPECT_EQ(alpha_cell(space, 0.7f, 16), 0u);
+  EXPECT_EQ(alpha_cell(space, 1.9f, 16), 15u);
+  EXPECT_EQ(alpha_cell(space, 3.1f, 16), 15u);
+}
+
+TEST(FirstShadowedCell, StartsAtTheNearestBoundary) {
+  const EpipolarBlock space = make_range(1.0f, 2.0f, 10);
+  const auto at = [&](float cells) { return first_shadowed_cell(space, 1.0f + 0.1f * cells, 10); };
+  // An occluder within half a cell of boundary i makes cell i the first whose centre is dark: its centre, at i + ½, is not
+  // before the occluder, and that of cell i − 1 is.
+  EXPECT_EQ(at(0.0f), 0u);
+  EXPECT_EQ(at(0.4f), 0u);
+  EXPECT_EQ(at(0.6f), 1u);
+  EXPECT_EQ(at(1.4f), 1u);
+  EXPECT_EQ(at(1.6f), 2u);
+  EXPECT_EQ(at(9.4f), 9u);
+}
+
+TEST(FirstShadowedCell, TheCentreOfTheFirstLiesBehindTheOccluderAndTheOneBeforeDoesNot) {
+  tests::Random random(11);
+  const uint count = 512;
+  const EpipolarBlock space = make_range(0.3f, 2.9f, count);
+  for (int n = 0; n < 10000; ++n) {
+    const auto alpha = static_cast<float>(random.uniform(0.3, 2.9));
+    const uint i = first_shadowed_cell(space, alpha, count);
+    const float centre = space.alpha_min + (static_cast<float>(i) + 0.5f) * space.alpha_step;
+    EXPECT_GE(centre, alpha - 1e-6f);
+    EXPECT_LE(centre - space.alpha_step, alpha + 1e-6f);
+  }
+}
+
+TEST(FirstShadowedCell, AnOccluderNearerTheAxisThanTheRangeShadowsAllOfIt) {
+  const EpipolarBlock space = make_range(1.0f, 2.0f, 10);
+  EXPECT_EQ(first_shadowed_cell(space, 0.0f, 10), 0u);
+  EXPECT_EQ(first_shadowed_cell(space, 0.9f, 10), 0u);
+}
+
+TEST(FirstShadowedCell, AnOccluderBeyondTheRangeShadowsNone) {
+  const EpipolarBlock space = make_range(1.0f, 2.0f, 10);
+  EXPECT_EQ(first_shadowed_cell(space, 1.96f, 10), 10u);
+  EXPECT_EQ(first_shadowed_cell(space, 2.0f, 10), 10u);
+  EXPECT_EQ(first_shadowed_cell(space, 3.0f, 10), 10u);
+}
+
+TEST(PhiCells, CoverTheRangeAndGrowFromTheFirstToTheLast) {
+  for (float growth : {0.0f, 0.5f, 4.0f}) {
+    const PhiCells cells{2.0f, growth, 256.0f};
+    EXPECT_EQ(phi_of_cell(cells, 0.0f), 0.0f);
+    EXPECT_FLOAT_EQ(phi_of_cell(cells, 256.0f), 2.0f);
+    const float first = phi_of_cell(cells, 1.0f), last = phi_of_cell(cells, 256.0f) - phi_of_cell(cells, 255.0f);
+    EXPECT_NEAR(last / first, 1.0f + 2.0f * growth, 0.05f * (1.0f + growth)) << "1 + 2c, to a cell's width";
+    for (float k = 0.0f; k < 256.0f; k += 1.0f) EXPECT_GT(phi_of_cell(cells, k + 1.0f), phi_of_cell(cells, k));
+  }
+}
+
+TEST(PhiCells, WithoutGrowthAreEqual) {
+  const PhiCells cells{3.0f, 0.0f, 128.0f};
+  for (float k = 0.0f; k <= 128.0f; k += 0.5f) EXPECT_FLOAT_EQ(phi_of_cell(cells, k), 3.0f * k / 128.0f);
+}
+
+TEST(PhiCells, AreFoundAgainByTheirPhi) {
+  tests::Random random(12);
+  for (int i = 0; i < 20000; ++i) {
+    const PhiCells cells{static_cast<float>(random.uniform(1e-3, 3.14)), static_cast<float>(random.uniform(0, 4)), 512.0f};
+    const auto cell = static_cast<float>(random.uniform(0, 512));
+    EXPECT_NEAR(cell_of_phi(cells, phi_of_cell(cells, cell)), cell, 3e-6f * cell + 1e-30f);
+  }
+  EXPECT_EQ(cell_of_phi({1.0f, 2.0f, 512.0f}, 0.0f), 0.0f);
+  EXPECT_FLOAT_EQ(cell_of_phi({1.0f, 2.0f, 512.0f}, 1.0f), 512.0f);
+}
+
+TEST(GridWord, EveryWordHasAPlaceOfItsOwn) {
+  const uint alpha_count = 5, theta_count = 3, words = 8;
+  std::vector<int> used(alpha_count * theta_count * words, 0);
+  for (uint j = 0; j < theta_count; ++j) {
+    for (uint i = 0; i < alpha_count; ++i) {
+      for (uint word = 0; word < words; ++word) ++used.at(grid_word(i, j, word, alpha_count, words));
+    }
+  }
+  for (int count : used) EXPECT_EQ(count, 1);
+  EXPECT_EQ(grid_word(0, 0, 1, alpha_count, words), 1u) << "neighbours in φ are neighbours in memory";
+  EXPECT_EQ(grid_word(1, 0, 0, alpha_count, words), words) << "then those in α";
+}
+
+}  // namespace
+}  // namespace airlight::shaders

@@ -1,0 +1,215 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <ostream>
+
+#include <gtest/gtest.h>
+
+#include "media/medium.h"
+#include "support/random.h"
+
+/// shaders/media/medium.glsl.
+namespace airlight::shaders {
+namespace {
+
+using std::numbers::pi;
+
+double exact(float value) { return static_cast<double>(value); }
+
+/// ∫ f over [−1, 1] by Gauss–Legendre's two-point rule on cells that shrink towards both ends, where the lobes of
+/// Henyey-Greenstein are.
+template <class Function>
+double over_cosines(const Function& f) {
+  double sum = 0.0;
+  const int cells = 20000;
+  const auto place = [](double s) { return std::sin(0.5 * pi * s); };
+  for (int i = 0; i < cells; ++i) {
+    const double a = place(2.0 * i / cells - 1), b = place(2.0 * (i + 1) / cells - 1);
+    const double middle = 0.5 * (a + b), offset = 0.5 * (b - a) / std::sqrt(3.0);
+    sum += 0.5 * (b - a) * (f(middle - offset) + f(middle + offset));
+  }
+  return sum;
+}
+
+struct Phase {
+  const char* name;
+  uint kind;
+  float g;
+  double mean_cosine;
+};
+
+void PrintTo(const Phase& phase, std::ostream* stream) { *stream << phase.name << " " << phase.g; }
+
+class PhaseFunction : public testing::TestWithParam<Phase> {};
+
+TEST_P(PhaseFunction, IntegratesToOneOverTheSphere) {
+  const Phase& phase = GetParam();
+  const double sum = 2 * pi * over_cosines([&](double cosine) {
+    return exact(phase_function(phase.kind, phase.g, static_cast<float>(cosine)));
+  });
+  // 1 + g² − 2g cos θ has lost (1 − g)² of its digits at the tip of the lobe.
+  EXPECT_NEAR(sum, 1.0, 2e-7 / std::pow(1.0 - std::abs(exact(phase.g)), 1.5));
+}
+
+TEST_P(PhaseFunction, HasTheMeanCosineG) {
+  const Phase& phase = GetParam();
+  const double mean = 2 * pi * over_cosines([&](double cosine) {
+    return cosine * exact(phase_function(phase.kind, phase.g, static_cast<float>(cosine)));
+  });
+  EXPECT_NEAR(mean, phase.mean_cosine, 2e-7 / std::pow(1.0 - std::abs(exact(phase.g)), 1.5));
+}
+
+TEST_P(PhaseFunction, IsPositive) {
+  for (int i = 0; i <= 1000; ++i) {
+    EXPECT_GT(phase_function(GetParam().kind, GetParam().g, static_cast<float>(i) / 500.0f - 1.0f), 0.0f);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, PhaseFunction,
+                         testing::Values(Phase{"isotropic", k_isotropic, 0.0f, 0.0},
+                                         Phase{"isotropic", k_isotropic, 0.7f, 0.0},
+                                         Phase{"rayleigh", k_rayleigh, 0.0f, 0.0},
+                                         Phase{"rayleigh", k_rayleigh, 0.7f, 0.0},
+                                         Phase{"henyey_greenstein", k_henyey_greenstein, 0.0f, 0.0},
+                                         Phase{"henyey_greenstein", k_henyey_greenstein, 0.5f, 0.5},
+                                         Phase{"henyey_greenstein", k_henyey_greenstein, -0.5f, -0.5},
+                                         Phase{"henyey_greenstein", k_henyey_greenstein, 0.9f, 0.9},
+                                         Phase{"henyey_greenstein", k_henyey_greenstein, 0.99f, 0.99}));
+
+TEST(PhaseValues, AreThoseOfTheBooks) {
+  EXPECT_FLOAT_EQ(phase_function(k_isotropic, 0.0f, 0.3f), static_cast<float>(1 / (4 * pi)));
+  EXPECT_FLOAT_EQ(phase_function(k_rayleigh, 0.0f, 1.0f), static_cast<float>(3 / (8 * pi)));
+  EXPECT_FLOAT_EQ(phase_function(k_rayleigh, 0.0f, 0.0f), static_cast<float>(3 / (16 * pi)));
+  EXPECT_FLOAT_EQ(phase_function(k_henyey_greenstein, 0.0f, 0.7f), static_cast<float>(1 / (4 * pi)));
+  EXPECT_FLOAT_EQ(phase_function(k_henyey_greenstein, 0.5f, 1.0f), static_cast<float>(0.75 / (4 * pi * 0.125)));
+  EXPECT_FLOAT_EQ(phase_function(k_henyey_greenstein, 0.5f, -1.0f), static_cast<float>(0.75 / (4 * pi * 3.375)));
+}
+
+double phase_in_double(uint kind, double g, double cosine) {
+  if (kind == k_rayleigh) return 3 / (16 * pi) * (1 + cosine * cosine);
+  if (kind == k_henyey_greenstein) return (1 - g * g) / (4 * pi * std::pow(1 + g * g - 2 * g * cosine, 1.5));
+  return 1 / (4 * pi);
+}
+
+double integrand_in_double(double D, double sigma, uint kind, double g, double complement, double phi) {
+  const double path = D * std::sin(0.5 * (complement + phi)) / std::sin(0.5 * (complement - phi));
+  return std::exp(-sigma * path) * phase_in_double(kind, g, -std::cos(complement - phi));
+}
+
+MediumBlock make_medium(glm::vec3 sigma_t, float g) {
+  MediumBlock medium{};
+  medium.sigma_s = sigma_t;
+  medium.sigma_t = sigma_t;
+  medium.g = g;
+  medium.intensity = {1, 2, 3};
+  return medium;
+}
+
+TEST(AirlightIntegrand, EqualsTheDoublePrecisionOne) {
+  tests::Random random(15);
+  for (int i = 0; i < 30000; ++i) {
+    EpipolarBlock space{};
+    space.distance = static_cast<float>(random.logarithmic(0.1, 100));
+    const uint kind = random.bits() % 3;
+    const MediumBlock medium = make_medium(glm::vec3(random.logarithmic(1e-4, 0.1), 0.01, 0.0), static_cast<float>(random.uniform(-0.8, 0.8)));
+    const auto complement = static_cast<float>(random.uniform(1e-3, 3.14));
+    const auto phi = complement * static_cast<float>(random.uniform(0.0, 0.99));
+    const glm::vec3 value = airlight_integrand(space, medium, kind, complement, phi);
+    for (int channel = 0; channel < 3; ++channel) {
+      const double sigma = exact(medium.sigma_t[channel]);
+      const double expected =
+          integrand_in_double(exact(space.distance), sigma, kind, exact(medium.g), exact(complement), exact(phi));
+      if (expected < 1e-30) continue;
+      const double depth = -std::log(expected * 4 * pi);
+      // e^{−x} turns a relative error of x into one of x times as much.
+      EXPECT_NEAR(exact(value[channel]) / expected, 1.0, 3e-6 + 1e-6 * std::abs(depth)) << complement << " " << phi;
+    }
+  }
+}
+
+TEST(AirlightIntegrand, IsZeroAtInfinityWhereTheMediumAbsorbs) {
+  EpipolarBlock space{};
+  space.distance = 2.0f;
+  const MediumBlock medium = make_medium({0.1f, 0.2f, 0.3f}, 0.0f);
+  for (float complement : {1e-5f, 1.0f, 3.0f}) {
+    for (float phi : {complement, 1.1f * complement}) {
+      const glm::vec3 value = airlight_integrand(space, medium, k_isotropic, complement, phi);
+      for (int channel = 0; channel < 3; ++channel) {
+        EXPECT_GE(value[channel], 0.0f);
+        EXPECT_LT(value[channel], 1e-30f);
+      }
+    }
+  }
+}
+
+TEST(IntegrateCell, MatchesHighOrderQuadratureOnTheCellsOfAGrid) {
+  // Two points integrate cubics exactly: the error of a cell of width h is h⁴/4320 of its fourth derivative.
+  tests::Random random(16);
+  for (int i = 0; i < 3000; ++i) {
+    EpipolarBlock space{};
+    space.distance = static_cast<float>(random.logarithmic(0.5, 20));
+    const uint kind = random.bits() % 3;
+    const MediumBlock medium = make_medium(glm::vec3(static_cast<float>(random.logarithmic(1e-3, 0.5))), static_cast<float>(random.uniform(-0.7, 0.7)));
+    const double complement = random.uniform(0.5, 3.1);
+    const double width = pi / 512;
+    const double from = random.uniform(0, 0.9) * complement, to = std::min(from + width, 0.97 * complement);
+    if (to <= from) continue;
+    const float single_from = static_cast<float>(from), single_to = static_cast<float>(to);
+    const float value = integrate_cell(space, medium, kind, static_cast<float>(complement), single_from, single_to).x;
+    double expected = 0.0;
+    const int panels = 64;
+    const double h = (exact(single_to) - exact(single_from)) / panels;
+    for (int panel = 0; panel < panels; ++panel) {
+      const double middle = exact(single_from) + (panel + 0.5) * h, offset = 0.5 * h / std::sqrt(3.0);
+      for (double phi : {middle - offset, middle + offset}) {
+        expected += 0.5 * h * integrand_in_double(exact(space.distance), exact(medium.sigma_t.x), kind, exact(medium.g),
+                                                  exact(static_cast<float>(complement)), phi);
+      }
+    }
+    if (expected < 1e-20) continue;
+    // Relative to the largest cell there is: light that has travelled far changes fast within a cell, but is little of it.
+    EXPECT_NEAR(exact(value), expected, 2e-5 * expected + 1e-6 * width / (4 * pi)) << complement << " " << from;
+  }
+}
+
+TEST(IntegrateCell, SumsToTheIntegralOfTheWholeRay) {
+  tests::Random random(17);
+  const double width = pi / 512;
+  for (int i = 0; i < 1000; ++i) {
+    EpipolarBlock space{};
+    space.distance = 1.0f;
+    const uint kind = random.bits() % 3;
+    const MediumBlock medium = make_medium(glm::vec3(static_cast<float>(random.logarithmic(1e-3, 3))), 0.6f);
+    const auto complement = static_cast<float>(random.logarithmic(1e-3, 3.1));
+    double sum = 0.0;
+    for (int k = 0; k * width < exact(complement); ++k) {
+      const auto from = static_cast<float>(k * width), to = std::min(static_cast<float>((k + 1) * width), complement);
+      sum += exact(integrate_cell(space, medium, kind, complement, from, to).x);
+    }
+    double expected = 0.0;
+    const int panels = 4000;
+    for (int panel = 0; panel < panels; ++panel) {
+      const double h = exact(complement) / panels, middle = (panel + 0.5) * h, offset = 0.5 * h / std::sqrt(3.0);
+      for (double phi : {middle - offset, middle + offset}) {
+        expected += 0.5 * h * integrand_in_double(1.0, exact(medium.sigma_t.x), kind, exact(medium.g), exact(complement), phi);
+      }
+    }
+    // The last cell of an endless ray ends where the path becomes infinite, a singularity that no polynomial follows: it may
+    // err by half a cell.
+    const double cells = exact(complement) / width;
+    EXPECT_NEAR(sum / expected, 1.0, 0.5 / (1 + cells)) << complement << " " << medium.sigma_t.x;
+  }
+}
+
+TEST(AirlightScale, IsTheFactorBeforeTheIntegral) {
+  EpipolarBlock space{};
+  space.distance = 4.0f;
+  MediumBlock medium = make_medium({0.5f, 0.25f, 0.125f}, 0.0f);
+  const glm::vec3 scale = airlight_scale(space, medium, 0.5f);
+  EXPECT_FLOAT_EQ(scale.x, 0.25f);
+  EXPECT_FLOAT_EQ(scale.y, 0.25f);
+  EXPECT_FLOAT_EQ(scale.z, 0.1875f);
+}
+
+}  // namespace
+}  // namespace airlight::shaders
