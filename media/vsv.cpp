@@ -1,6 +1,7 @@
 #include "media/vsv.h"
 
 #include <array>
+#include <numbers>
 
 #include "epipolar/space.h"
 #include "media/medium.h"
@@ -16,6 +17,16 @@ namespace {
 /// Rows of the table in α. S is smooth in α: linear interpolation between 256 rows over at most π errs by 2e-5 of S.
 constexpr std::uint32_t k_table_rows = 256;
 
+/// How many cells a ray must cross for the table to serve it: 0, any will do, unless the view comes so near to α = π, where
+/// φ_d ≤ π − α, that its rays may end within four of the widest cells.
+std::uint32_t direct_cells(const shaders::EpipolarBlock& space, const epipolar::Resolution& resolution) {
+  constexpr std::uint32_t k_cells = 4;
+  constexpr float k_widest = 1.8f;  // of φ_max / N_φ, at the largest growth (shaders/media/phi_growth.comp)
+  const float alpha_max = space.alpha_min + space.alpha_step * static_cast<float>(resolution.alpha);
+  const float reach = k_cells * k_widest * std::numbers::pi_v<float> / static_cast<float>(resolution.phi);
+  return std::numbers::pi_v<float> - alpha_max < reach ? k_cells : 0;
+}
+
 }  // namespace
 
 Vsv::Vsv(const gpu::Context& context, const epipolar::Resolution& resolution, VsvIntegral integral,
@@ -26,11 +37,12 @@ void Vsv::load(const gpu::Context& context, const Variant& variant) {
   if (loaded_ == variant) return;
   const epipolar::Resolution& resolution = volume_.grid().resolution();
   const auto grid = epipolar::resolution_constants(resolution);
-  const std::array<gpu::Constant, 6> constants = {grid[0], grid[1], grid[2], gpu::Constant(3, variant.phase),
-                                                  gpu::Constant(4, variant.channels), gpu::Constant(5, k_table_rows)};
+  const std::array<gpu::Constant, 7> constants = {grid[0], grid[1], grid[2], gpu::Constant(3, variant.phase),
+                                                  gpu::Constant(4, variant.channels), gpu::Constant(5, k_table_rows),
+                                                  gpu::Constant(6, variant.direct)};
   phi_growth_ = gpu::Program::compute(k_phi_growth_comp, std::array{grid[0], constants[3]});
   if (integral_ == VsvIntegral::table) {
-    build_table_ = gpu::Program::compute(k_vsv_table_build_comp, constants);
+    build_table_ = gpu::Program::compute(k_vsv_table_build_comp, std::span(constants).first<6>());
     integrate_ = gpu::Program::compute(k_vsv_table_comp, constants);
     table_ = gpu::Buffer(std::int64_t{k_table_rows} * (resolution.phi + 1) * variant.channels * 8);
     table_texels_ = {context, table_, gpu::Format::rg32f, "the table integral"};
@@ -43,11 +55,12 @@ void Vsv::load(const gpu::Context& context, const Variant& variant) {
 void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) {
   shaders::MediumBlock block = medium_block(inputs.view);
   const bool is_grey = block.sigma_t.x == block.sigma_t.y && block.sigma_t.y == block.sigma_t.z;
-  load(inputs.context, {static_cast<std::uint32_t>(inputs.view.medium.phase), is_grey ? 1u : 3u});
+  const epipolar::Resolution& resolution = volume_.grid().resolution();
+  const shaders::EpipolarBlock space = epipolar::epipolar_block(inputs.view, resolution.alpha);
+  load(inputs.context, {static_cast<std::uint32_t>(inputs.view.medium.phase), is_grey ? 1u : 3u,
+                        direct_cells(space, resolution)});
   volume_.find_ranges(inputs);
   inputs.timer.time("ranges", [&] {
-    const epipolar::Resolution& resolution = volume_.grid().resolution();
-    const shaders::EpipolarBlock space = epipolar::epipolar_block(inputs.view, resolution.alpha);
     block.table_row_step =
         space.alpha_step * static_cast<float>(resolution.alpha) / static_cast<float>(k_table_rows - 1);
     medium_block_.write(&block, sizeof block);

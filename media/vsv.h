@@ -36,7 +36,7 @@ class Vsv : public frame::Airlight {
  private:
   /// What the shaders are specialised for.
   struct Variant {
-    std::uint32_t phase, channels;
+    std::uint32_t phase, channels, direct;
     bool operator==(const Variant&) const = default;
   };
   void load(const gpu::Context& context, const Variant& variant);

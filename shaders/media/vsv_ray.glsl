@@ -20,7 +20,6 @@ const float k_plane_slack = 0.25;
 struct VsvRay {
   EyeAngle angle;
   float alpha;
-  float complement;  // π − α
   float phi_end;     // where the ray ends
   PhiCells cells;
   float end;         // where the ray ends, in cells of φ
@@ -36,15 +35,15 @@ VsvRay vsv_ray(ivec2 pixel) {
   vec3 direction = view_ray(view, vec2(pixel) + 0.5);
   ray.angle = eye_angle(space, direction, quarter_pixel(view));
   ray.alpha = alpha_of(ray.angle);
-  ray.complement = alpha_complement(ray.angle);
   vec4 surface = texelFetch(surface_image, pixel, 0);
   ray.is_open = surface.w == 0.0;
-  ray.phi_end = ray.is_open ? ray.complement : phi_at(space, ray.angle, surface.w);
+  ray.phi_end = ray.is_open ? alpha_complement(ray.angle) : phi_at(space, ray.angle, surface.w);
   ray.cells = phi_cells();
   ray.end = cell_of_phi(ray.cells, ray.phi_end);
   ray.last_cell = uint(clamp(floor(ray.end), 0.0, float(k_phi_count) - 1.0));
   uint i = alpha_cell(space, ray.alpha, k_alpha_count);
-  uint j = theta_cell(theta_of(space, direction), k_theta_count);
+  float theta = theta_of(space, direction);
+  uint j = theta_cell(theta, k_theta_count);
   ray.texel = int((j * k_alpha_count + i) * k_texels_per_ray);
 
   // The bits are those of the row's own ray, at the centre of its cell. Where that ray meets the surface's plane before this one
@@ -52,18 +51,24 @@ VsvRay vsv_ray(ivec2 pixel) {
   // 1/sin α grows a leak would circle the epipole.
   ray.last_valid = int(ray.last_cell);
   ray.unknown = 0u;
+  float phi_t = surface.w * ray.angle.sine;  // the end of the ray: sine and cosine of φ_d, times r
+  float phi_r = space.distance - surface.w * ray.angle.cosine;
+  float plane = surface.w * dot(surface.xyz, direction);  // of the surface, its distance from the eye, < 0
   if (!ray.is_open) {
-    float alpha = space.alpha_min + (float(i) + 0.5) * space.alpha_step;
-    vec3 row_direction = view_ray_of(space, alpha, theta_centre(j, k_theta_count));
-    float distance = surface.w * dot(surface.xyz, direction);  // of the plane from the eye
-    float row_facing = dot(surface.xyz, row_direction);
-    if (row_facing < 0.0) {
-      EyeAngle row_angle = EyeAngle(sin(alpha), cos(alpha));
-      float row_end = cell_of_phi(ray.cells, phi_at(space, row_angle, distance / row_facing));
-      ray.last_valid = min(ray.last_valid, int(ceil(row_end - 0.5 - k_plane_slack)) - 1);
-    }
-    bool faces_light = dot(surface.xyz, view.light) > distance;
-    ray.unknown = faces_light ? 0u : 0xffffffffu;
+    // The row's ray, to first order in what separates it from this one.
+    float d_alpha = space.alpha_min + (float(i) + 0.5) * space.alpha_step - ray.alpha;
+    float d_theta = theta_centre(j, k_theta_count) - theta;
+    vec3 outward = (direction - ray.angle.cosine * space.axis) / ray.angle.sine;
+    vec3 row_direction = direction + d_alpha * (ray.angle.cosine * outward - ray.angle.sine * space.axis) +
+                         d_theta * ray.angle.sine * cross(space.axis, outward);
+    float row_distance = plane / min(dot(surface.xyz, row_direction), -1e-20);
+    // tan(φ of the row − φ_d), which is φ's difference where that matters: within a few cells.
+    float row_t = row_distance * (ray.angle.sine + d_alpha * ray.angle.cosine);
+    float row_r = space.distance - row_distance * (ray.angle.cosine - d_alpha * ray.angle.sine);
+    float d_phi = (row_t * phi_r - row_r * phi_t) / max(row_r * phi_r + row_t * phi_t, 1e-20);
+    float row_end = cell_of_phi(ray.cells, max(ray.phi_end + d_phi, 0.0));
+    ray.last_valid = min(ray.last_valid, int(ceil(row_end - 0.5 - k_plane_slack)) - 1);
+    ray.unknown = dot(surface.xyz, view.light) > plane ? 0u : 0xffffffffu;  // lit where the surface faces the light
   }
   return ray;
 }

@@ -10,6 +10,7 @@ void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(vec2(pixel), vec2(view.image_width, view.image_height)))) return;
   VsvRay ray = vsv_ray(pixel);
+  float complement = alpha_complement(ray.angle);
   vec3 sum = vec3(0.0);
   uvec4 words;
   uint before = ray.unknown;
@@ -23,7 +24,7 @@ void main() {
       lit &= lit - 1u;
       float phi = phi_of_cell(ray.cells, float(k) + 0.5);
       float width = phi_of_cell(ray.cells, float(k + 1u)) - phi_of_cell(ray.cells, float(k));
-      if (phi < ray.phi_end) sum += width * airlight_integrand(space, medium, k_phase, ray.complement, phi);
+      if (phi < ray.phi_end) sum += width * airlight_integrand(space, medium, k_phase, complement, phi);
     }
   }
   vec3 radiance = airlight_scale(space, medium, ray.angle.sine) * sum;

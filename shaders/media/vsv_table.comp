@@ -9,8 +9,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 13) uniform samplerBuffer table;  // vec2
 
 // A ray that ends within this many cells is integrated directly: where α → π the integral and sin α vanish together, and
-// an interpolated table keeps no digits of their ratio.
-const uint k_direct_cells = 4u;
+// an interpolated table keeps no digits of their ratio. 0 for a view that does not reach there (media/vsv.cpp): llvmpipe
+// runs both sides of a branch.
+layout(constant_id = 6) const uint k_direct_cells = 0;
 
 // Sum of ±S over the changes of visibility of one word, by the two rows. The first change is from light to shadow.
 void add_changes(uint changes, uint first_cell, uint row_start, inout float sign, inout vec2 sum[3]) {
@@ -31,13 +32,14 @@ void main() {
 
   vec3 integral = vec3(0.0);
   if (ray.last_cell < k_direct_cells) {
+    float complement = alpha_complement(ray.angle);
     uint before = ray.unknown;
     uint shadow = seen_bits(ray, texelFetch(grid_texels, ray.texel).x, 0u, before);
     for (uint k = 0u; k <= ray.last_cell; ++k) {
       if ((shadow >> k & 1u) != 0u) continue;
       float from = phi_of_cell(ray.cells, float(k));
       float to = min(phi_of_cell(ray.cells, float(k + 1u)), ray.phi_end);
-      if (to > from) integral += integrate_cell(space, medium, k_phase, ray.complement, from, to);
+      if (to > from) integral += integrate_cell(space, medium, k_phase, complement, from, to);
     }
   } else {
     float row = clamp((ray.alpha - space.alpha_min) / medium.table_row_step, 0.0, float(k_table_rows) - 1.001);
