@@ -209,6 +209,8 @@ class Comparer {
     const std::vector<glm::vec3>& truth = reference_.converged(request_.reference_samples).radiance;
     const reference::SurfaceImage& surfaces = reference_.surfaces();
     run.airlight_error = airlight_error(floats(images.airlight), floats(truth));
+    run.same_surface_error =
+        same_surface_error(floats(images.airlight), images.distance, floats(truth), surfaces.distance);
     run.surface_error =
         surface_error(images.visibility, images.distance, surfaces.visibility, surfaces.distance);
 

@@ -86,6 +86,30 @@ AirlightError airlight_error(std::span<const float> x, std::span<const float> r)
   return error;
 }
 
+SameSurfaceError same_surface_error(std::span<const float> x, std::span<const float> distance,
+                                    std::span<const float> r, std::span<const float> reference_distance) {
+  require_same_length(x.size(), r.size());
+  require_same_length(distance.size(), reference_distance.size());
+  const std::size_t channels = distance.empty() ? 0 : x.size() / distance.size();
+  std::vector<float> kept_x, kept_r;
+  SameSurfaceError error{};
+  for (std::size_t i = 0; i < distance.size(); ++i) {
+    if (std::abs(distance[i] - reference_distance[i]) > 1e-3f * reference_distance[i]) {
+      ++error.left_out_pixels;
+      continue;
+    }
+    for (std::size_t c = i * channels; c < (i + 1) * channels; ++c) {
+      kept_x.push_back(x[c]);
+      kept_r.push_back(r[c]);
+    }
+  }
+  if (kept_x.empty()) return error;
+  const AirlightError kept = airlight_error(kept_x, kept_r);
+  error.bias = kept.bias;
+  error.rrmse = kept.rrmse;
+  return error;
+}
+
 SurfaceError surface_error(std::span<const float> visibility, std::span<const float> distance,
                            std::span<const float> reference_visibility,
                            std::span<const float> reference_distance) {

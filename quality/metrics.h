@@ -22,6 +22,21 @@ struct AirlightError {
 /// relative figures are 0 for an equal image and +Inf otherwise.
 AirlightError airlight_error(std::span<const float> x, std::span<const float> r);
 
+/// The airlight's error where both images see the same surface, or both none: distances within 0.1 %. A
+/// rasteriser snaps corners to 1/256 pixel, so a few pixels at silhouettes show another surface than the ray
+/// through their centre hits; their error is not the airlight's, and where a bright background meets a dark
+/// edge it outweighs all others.
+struct SameSurfaceError {
+  double bias, rrmse;           ///< as in AirlightError, over the pixels that are kept
+  std::size_t left_out_pixels;  ///< those that see different surfaces
+};
+
+/// @param x, r images of as many channels a pixel as their lengths tell; @param distance, reference_distance
+/// one a pixel
+/// @throws as airlight_error
+SameSurfaceError same_surface_error(std::span<const float> x, std::span<const float> distance,
+                                    std::span<const float> r, std::span<const float> reference_distance);
+
 /// Surface shadows: pixels that hit a surface in both images, and how many of them are lit in one and dark in
 /// the other.
 struct SurfaceError {

@@ -77,6 +77,8 @@ constexpr const char* k_definitions = R"(<dl>
 frames in the next column, after one frame of warm-up. Where the first frame took more than 2 s it is the only one.</dd>
 <dt>march/frame</dt><dd>Frame time of the fastest <em>reference-march</em> row, divided by this row's frame time.</dd>
 <dt>Mrays/s</dt><dd>Occlusion rays for airlight, in millions, per second of tracing and integrating on all cores.</dd>
+<dt>same-surface rrmse [%], left out [pixels]</dt><dd>The same without the pixels where rasterisation, which snaps corners to 1/256
+pixel, shows another surface than the reference's ray hits, and how many those are.</dd>
 <dt>rrmse [%]</dt><dd>sqrt(mean((x − r)²)) / mean(r), over all channels of all pixels of the airlight: x this run's, r the reference's.
 “&lt;” marks an error that is not above the reference's own uncertainty.</dd>
 <dt>bias [%]</dt><dd>mean(x) / mean(r) − 1.</dd>
@@ -99,7 +101,9 @@ std::string results_rows(const Comparison& comparison) {
             cell(fmt::format("{}", run.frames)) +
             cell(run.march_ratio > 0.0 ? fmt::format("{:.2f}", run.march_ratio) : "–") +
             cell(run.rays > 0 ? fmt::format("{:.2f}", run.mrays_per_s) : "–") +
-            cell(error_text(error.rrmse, comparison.truth.self_error)) + cell(percent(error.bias, "+")) +
+            cell(error_text(error.rrmse, comparison.truth.self_error)) +
+            cell(error_text(run.same_surface_error.rrmse, comparison.truth.self_error)) +
+            cell(fmt::format("{}", run.same_surface_error.left_out_pixels)) + cell(percent(error.bias, "+")) +
             cell(percent(error.mae)) + cell(percent(error.p99)) + cell(percent(error.max)) +
             cell(fmt::format("{:.3g}", error.relmse)) +
             cell(fmt::format("{} / {}", run.surface_error.wrong_pixels, run.surface_error.pixels)) +
@@ -185,7 +189,8 @@ std::string report_html(const Comparison& comparison) {
   html +=
       "<h2>Time and error</h2>\n<div class=\"scroll\"><table><thead><tr><th class=\"name\">volume</th>"
       "<th class=\"name\">surface</th><th>frame [ms]</th><th>frames</th><th>march/frame</th><th>Mrays/s</th>"
-      "<th>rrmse [%]</th><th>bias [%]</th><th>mae [%]</th><th>p99 [%]</th><th>max [%]</th><th>relmse</th>"
+      "<th>rrmse [%]</th><th>same-surface rrmse [%]</th><th>left out [pixels]</th><th>bias [%]</th><th>mae "
+      "[%]</th><th>p99 [%]</th><th>max [%]</th><th>relmse</th>"
       "<th>wrong pixels</th><th>memory [MiB]</th></tr></thead><tbody>\n" +
       results_rows(comparison) + "</tbody></table></div>\n";
   html += "<h2>Stages [ms]</h2>\n<div class=\"scroll\">" + stages_table(comparison) + "</div>\n";

@@ -79,6 +79,10 @@ Json run_json(const Run& run) {
           {"p99", number(error.p99)},
           {"max", number(error.max)},
           {"relmse", number(error.relmse)}}},
+        {"airlight_same_surface",
+         {{"bias", number(run.same_surface_error.bias)},
+          {"rrmse", number(run.same_surface_error.rrmse)},
+          {"left_out_pixels", run.same_surface_error.left_out_pixels}}},
         {"surface",
          {{"wrong_pixels", run.surface_error.wrong_pixels}, {"pixels", run.surface_error.pixels}}}}}};
   if (run.rays > 0) {
@@ -198,8 +202,9 @@ std::string results_table(const Comparison& comparison) {
                   truth.samples, static_cast<double>(truth.rays) * 1e-6, truth.ms, 100.0 * truth.self_error);
 
   // What each run cost and how far off it is.
-  std::vector<std::vector<std::string>> rows = {
-      {"volume", "surface", "frame ms", "march/frame", "Mrays/s", "rrmse %", "bias %", "p99 %", "wrong px"}};
+  std::vector<std::vector<std::string>> rows = {{"volume", "surface", "frame ms", "march/frame", "Mrays/s",
+                                                 "rrmse %", "bias %", "p99 %", "same-surface rrmse %",
+                                                 "left out px", "wrong px"}};
   for (const Run& run : comparison.runs) {
     const AirlightError& error = run.airlight_error;
     rows.push_back({run.volume, run.surface, fmt::format("{:.2f}", run.frame_ms),
@@ -207,6 +212,8 @@ std::string results_table(const Comparison& comparison) {
                     run.rays > 0 ? fmt::format("{:.2f}", run.mrays_per_s) : "-",
                     error_text(error.rrmse, truth.self_error), fmt::format("{:+.3f}", 100.0 * error.bias),
                     fmt::format("{:.3g}", 100.0 * error.p99),
+                    error_text(run.same_surface_error.rrmse, truth.self_error),
+                    fmt::format("{}", run.same_surface_error.left_out_pixels),
                     fmt::format("{}", run.surface_error.wrong_pixels)});
   }
   text += layout(rows, 2);
@@ -236,8 +243,10 @@ std::string results_table(const Comparison& comparison) {
       "airlight.\n"
       "rrmse, bias, p99: airlight against the reference, in % of its mean ({:.4g} W/(m2 sr)). < marks what "
       "is not\n"
-      "above the reference's own uncertainty. wrong px: surface pixels lit where the reference is dark or "
-      "the other\n"
+      "above the reference's own uncertainty. same-surface: without the pixels where rasterisation shows "
+      "another\n"
+      "surface than the ray hits (left out). wrong px: surface pixels lit where the reference is dark or the "
+      "other\n"
       "way round, of {} that both see.\n",
       truth.mean_airlight, pixels);
   return text;

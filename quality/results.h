@@ -30,6 +30,7 @@ struct Run {
   double mrays_per_s = 0.0;  ///< 0 for a method that traces none
   double march_ratio = 0.0;  ///< frame time of the fastest reference-march / frame_ms; 0 when none was run
   AirlightError airlight_error{};
+  SameSurfaceError same_surface_error{};
   SurfaceError surface_error{};
 };
 

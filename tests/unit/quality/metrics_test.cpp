@@ -91,6 +91,17 @@ TEST(AirlightError, RefusesDifferentLengthsAndNoPixels) {
   EXPECT_THROW(airlight_error(none, none), scene::Error);
 }
 
+TEST(SameSurfaceError, LeavesOutPixelsThatSeeDifferentSurfaces) {
+  // Four pixels of two channels; the second sees another surface, the third sees one where the reference sees
+  // none.
+  const std::vector<float> x{1, 3, 9, 9, 7, 7, 2, 2}, distance{1.0005f, 5, 4, 0};
+  const std::vector<float> r{1, 1, 1, 1, 1, 1, 2, 4}, reference_distance{1, 4, 0, 0};
+  const SameSurfaceError error = same_surface_error(x, distance, r, reference_distance);
+  EXPECT_EQ(error.left_out_pixels, 2u);
+  EXPECT_DOUBLE_EQ(error.bias, 0.0);                          // (1+3+2+2)/(1+1+2+4) − 1
+  EXPECT_DOUBLE_EQ(error.rrmse, std::sqrt(8.0 / 4.0) / 2.0);  // sqrt((0+4+0+4)/4) / mean 2
+}
+
 TEST(SurfaceError, CountsPixelsThatHitInBothAndDiffer) {
   const std::vector<float> visibility{1, 0, 1, 0, 0.5f, 1}, distance{1, 1, 0, 1, 1, 1};
   const std::vector<float> reference{1, 1, 0, 1, 1, 0}, reference_distance{2, 2, 2, 0, 2, 2};

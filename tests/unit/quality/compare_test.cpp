@@ -1,0 +1,74 @@
+#include "quality/compare.h"
+
+#include <gtest/gtest.h>
+
+namespace airlight::quality {
+namespace {
+
+TEST(AutomaticExposure, MapsThe95thPercentileToFourFifths) {
+  std::vector<glm::vec3> radiance;
+  for (int i = 1; i <= 101; ++i) radiance.emplace_back(0.0f, static_cast<float>(i), 0.5f);
+  EXPECT_FLOAT_EQ(automatic_exposure(radiance), 0.8f / 96.0f);
+}
+
+TEST(AutomaticExposure, IsDefinedForDarkImages) {
+  std::vector<glm::vec3> radiance(100, glm::vec3(0.0f));
+  EXPECT_EQ(automatic_exposure(radiance), 1.0f);
+  radiance[3].x = 2.0f;
+  EXPECT_FLOAT_EQ(automatic_exposure(radiance), 0.4f);
+  EXPECT_EQ(automatic_exposure({}), 1.0f);
+}
+
+TEST(ErrorColours, AreWhiteForSmallErrorsAndTellTheSignOfLargeOnes) {
+  const std::vector<glm::vec3> reference(4, glm::vec3(2.0f));
+  std::vector<glm::vec3> image = reference;
+  image[1] += 0.001f;  // relative to the mean of 2: 5e-4
+  image[2] += 2.0f;
+  image[3] -= 2.0f;
+  const std::vector<glm::vec3> colours = error_colours(image, reference);
+  EXPECT_EQ(colours[0], glm::vec3(1.0f));
+  EXPECT_EQ(colours[1], glm::vec3(1.0f));
+  EXPECT_GT(colours[2].r, 5.0f * colours[2].b);
+  EXPECT_GT(colours[3].b, 5.0f * colours[3].r);
+}
+
+TEST(ErrorColours, DeepenByDecade) {
+  const std::vector<glm::vec3> reference(3, glm::vec3(1.0f));
+  const std::vector<glm::vec3> colours =
+      error_colours({glm::vec3(1.01f), glm::vec3(1.1f), glm::vec3(2.0f)}, reference);
+  const float first = 1.0f - colours[0].g, second = 1.0f - colours[1].g, third = 1.0f - colours[2].g;
+  EXPECT_NEAR(second / first, 2.0f, 1e-3f);
+  EXPECT_NEAR(third / first, 3.0f, 1e-3f);
+}
+
+TEST(ErrorColours, AreFullAgainstABlackReference) {
+  const std::vector<glm::vec3> black(1, glm::vec3(0.0f));
+  EXPECT_EQ(error_colours(black, black)[0], glm::vec3(1.0f));
+  EXPECT_EQ(error_colours({glm::vec3(1e-6f)}, black)[0].g, 0.0f);
+}
+
+TEST(ShellQuote, QuotesWhatAShellWouldTouch) {
+  EXPECT_EQ(shell_quote("vsv:integral=riemann,none"), "vsv:integral=riemann,none");
+  EXPECT_EQ(shell_quote("a b"), "'a b'");
+  EXPECT_EQ(shell_quote("it's"), "'it'\\''s'");
+  EXPECT_EQ(shell_quote("$(x)"), "'$(x)'");
+  EXPECT_EQ(shell_quote(""), "''");
+}
+
+TEST(ExrImage, HasTheChannelsOfARender) {
+  frame::FrameImages images;
+  images.size = {1, 1};
+  images.radiance = {{1, 2, 3}};
+  images.airlight = {{4, 5, 6}};
+  images.visibility = {1};
+  images.distance = {7};
+  const Image image = exr_image(images, {{"airlight.scene", "hall"}});
+  EXPECT_EQ(image.channels.at("B"), std::vector<float>{3});
+  EXPECT_EQ(image.channels.at("airlight.R"), std::vector<float>{4});
+  EXPECT_EQ(image.channels.at("surface.Y"), std::vector<float>{1});
+  EXPECT_EQ(image.channels.at("distance.Y"), std::vector<float>{7});
+  EXPECT_EQ(image.metadata.at("airlight.scene"), "hall");
+}
+
+}  // namespace
+}  // namespace airlight::quality

@@ -1,0 +1,57 @@
+#include "quality/report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace airlight::quality {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+Comparison one_run() {
+  Comparison comparison;
+  comparison.scene = "<hall> & \"yard\"";
+  comparison.truth.self_error = 0.001;
+  Run run;
+  run.volume = "vsv:alpha=64";
+  run.surface = "shadow-map";
+  run.name = "vsv_alpha-64+shadow-map";
+  run.command = "airlight compare 'a & b'";
+  run.settings = {{"alpha", 64}};
+  run.stages_ms = {{"scan", 3.5}};
+  run.frame_ms = 1.0;
+  run.airlight_error.rrmse = 0.0005;
+  comparison.runs = {run};
+  return comparison;
+}
+
+TEST(Report, ShowsEachRunWithItsImagesAndCommand) {
+  const std::string html = report_html(one_run());
+  EXPECT_THAT(html, HasSubstr("vsv:alpha=64"));
+  EXPECT_THAT(html, HasSubstr("src=\"vsv_alpha-64%2Bshadow-map.png\""));
+  EXPECT_THAT(html, HasSubstr("src=\"vsv_alpha-64%2Bshadow-map_error.png\""));
+  EXPECT_THAT(html, HasSubstr("src=\"reference.png\""));
+  EXPECT_THAT(html, HasSubstr("alpha=64"));
+  EXPECT_THAT(html, HasSubstr("<td>3.50</td>"));
+  EXPECT_THAT(html, HasSubstr("airlight compare 'a &amp; b'"));
+}
+
+TEST(Report, EscapesWhatTheUserTyped) {
+  const std::string html = report_html(one_run());
+  EXPECT_THAT(html, HasSubstr("&lt;hall&gt; &amp; &quot;yard&quot;"));
+  EXPECT_THAT(html, Not(HasSubstr("<hall>")));
+}
+
+TEST(Report, ClaimsNoErrorBelowThatOfTheReference) {
+  EXPECT_THAT(report_html(one_run()), HasSubstr("<td>&lt; 0.1</td>"));
+}
+
+TEST(Report, NeedsNothingFromElsewhere) {
+  const std::string html = report_html(one_run());
+  EXPECT_THAT(html, Not(HasSubstr("http")));
+  EXPECT_THAT(html, Not(HasSubstr("<script")));
+}
+
+}  // namespace
+}  // namespace airlight::quality

@@ -1,0 +1,100 @@
+#include "quality/results.h"
+
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "scene/error.h"
+
+namespace airlight::quality {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+Comparison two_runs() {
+  Comparison comparison;
+  comparison.scene = "hall";
+  comparison.truth = {.samples = 512, .self_error = 0.001, .ms = 2.0, .rays = 4000, .mean_airlight = 0.5};
+  Run vsv;
+  vsv.volume = "vsv";
+  vsv.surface = "shadow-map";
+  vsv.name = "vsv+shadow-map";
+  vsv.settings = {{"alpha", 512}, {"integral", std::string("table")}};
+  vsv.stages_ms = {{"scan", 3.0}};
+  vsv.frame_ms = 4.0;
+  vsv.march_ratio = 5.0;
+  vsv.airlight_error.rrmse = 0.0123;
+  vsv.airlight_error.bias = -0.00042;
+  Run march = vsv;
+  march.volume = "reference-march";
+  march.stages_ms = {{"integrate", 20.0}};
+  march.rays = 1'000'000;
+  march.mrays_per_s = 50.0;
+  march.airlight_error.rrmse = 0.0005;
+  comparison.runs = {vsv, march};
+  return comparison;
+}
+
+TEST(ResultsJson, KeepsRawFigures) {
+  const json results = json::parse(results_json(two_runs()));
+  EXPECT_EQ(results["scene"]["name"], "hall");
+  EXPECT_EQ(results["reference"]["self_error"], 0.001);
+  const json& vsv = results["runs"][0];
+  EXPECT_EQ(vsv["settings"], (json{{"alpha", 512}, {"integral", "table"}}));
+  EXPECT_EQ(vsv["error"]["airlight"]["rrmse"], 0.0123);
+  EXPECT_EQ(vsv["march_ratio"], 5.0);
+  EXPECT_FALSE(vsv.contains("rays"));
+  EXPECT_EQ(results["runs"][1]["error"]["airlight"]["rrmse"], 0.0005);
+  EXPECT_EQ(results["runs"][1]["rays"], 1'000'000);
+}
+
+TEST(ResultsJson, WritesSinglePrecisionWithTheDigitsItHas) {
+  Comparison comparison = two_runs();
+  comparison.view.medium.sigma_s = glm::vec3(0.1f);
+  EXPECT_EQ(json::parse(results_json(comparison))["view"]["medium"]["sigma_s"], (json{0.1, 0.1, 0.1}));
+}
+
+TEST(ResultsJson, HasNoInfinityAndSurvivesAnyFileName) {
+  Comparison comparison = two_runs();
+  comparison.runs[0].airlight_error.rrmse = std::numeric_limits<double>::infinity();
+  comparison.scene = "\xff.obj";
+  const json results = json::parse(results_json(comparison));
+  EXPECT_TRUE(results["runs"][0]["error"]["airlight"]["rrmse"].is_null());
+}
+
+TEST(ResultsTable, ClaimsNoErrorBelowThatOfTheReference) {
+  const std::string table = results_table(two_runs());
+  EXPECT_THAT(table, HasSubstr(" 1.23 "));
+  EXPECT_THAT(table, HasSubstr("-0.042"));
+  EXPECT_THAT(table, HasSubstr("< 0.1 "));
+  EXPECT_THAT(table, testing::Not(HasSubstr(" 0.05 ")));
+}
+
+TEST(ErrorText, IsAPercentageOrABound) {
+  EXPECT_EQ(error_text(0.02, 0.001), "2");
+  EXPECT_EQ(error_text(0.001, 0.001), "< 0.1");
+  EXPECT_EQ(error_text(0.0, 0.001), "< 0.1");
+  EXPECT_EQ(error_text(0.0, 0.0), "0");
+  EXPECT_EQ(error_text(std::numeric_limits<double>::infinity(), 0.001), "inf");
+}
+
+TEST(ViewOptions, ReadBackToTheSameNumbers) {
+  scene::View view;
+  view.camera.eye = {0.1, 1.0 / 3.0, -1e-7};
+  view.medium.sigma_s = {0.1f, 1.0f / 3.0f, 2.0f};
+  const auto options = view_options(view);
+  EXPECT_EQ(options.at("eye"), "0.1,0.3333333333333333,-1e-07");
+  EXPECT_EQ(options.at("sigma-s"), "0.1,0.33333334,2");
+  EXPECT_EQ(options.at("size"), "512x512");
+}
+
+TEST(WriteText, NamesTheFileThatCannotBeWritten) {
+  EXPECT_THROW(write_text("/dev/full", "text"), scene::Error);
+  EXPECT_THROW(write_text("/dev/null/file", "text"), scene::Error);
+}
+
+}  // namespace
+}  // namespace airlight::quality
