@@ -15,10 +15,12 @@ void validate(const Resolution& resolution) {
     if (!good) throw Error(ExitCode::usage, option, fmt::format("{} is not {}", value, rule));
   };
   // Indices are counted in single-precision floats on their way to a cell.
-  require(resolution.alpha >= 1 && resolution.alpha <= 1 << 20, "--alpha", resolution.alpha, "between 1 and 1048576");
-  require(resolution.theta >= 1 && resolution.theta <= 1 << 20, "--theta", resolution.theta, "between 1 and 1048576");
-  require(resolution.phi >= 128 && resolution.phi % 128 == 0 && resolution.phi <= 1 << 20, "--phi", resolution.phi,
-          "a multiple of 128 between 128 and 1048576");
+  require(resolution.alpha >= 1 && resolution.alpha <= 1 << 20, "--alpha", resolution.alpha,
+          "between 1 and 1048576");
+  require(resolution.theta >= 1 && resolution.theta <= 1 << 20, "--theta", resolution.theta,
+          "between 1 and 1048576");
+  require(resolution.phi >= 128 && resolution.phi % 128 == 0 && resolution.phi <= 1 << 20, "--phi",
+          resolution.phi, "a multiple of 128 between 128 and 1048576");
 }
 
 std::array<gpu::Constant, 3> resolution_constants(const Resolution& resolution) {
@@ -30,9 +32,10 @@ std::array<gpu::Constant, 3> resolution_constants(const Resolution& resolution) 
 Grid::Grid(const gpu::Context& context, const Resolution& resolution) : resolution_(resolution) {
   validate(resolution);
   const std::int64_t bytes = std::int64_t{resolution.alpha} * resolution.theta * resolution.phi / 8;
-  gpu::require_storage_block(context.limits(), bytes,
-                             fmt::format("the {} × {} × {} grid", resolution.alpha, resolution.theta, resolution.phi),
-                             "ask for fewer cells with --alpha, --theta, --phi");
+  gpu::require_storage_block(
+      context.limits(), bytes,
+      fmt::format("the {} × {} × {} grid", resolution.alpha, resolution.theta, resolution.phi),
+      "ask for fewer cells with --alpha, --theta, --phi");
   bits_ = gpu::Buffer(bytes);
   texels_ = {context, bits_, gpu::Format::rgba32ui, "the grid"};
   block_ = gpu::Buffer(sizeof(shaders::EpipolarBlock));

@@ -13,7 +13,7 @@ namespace airlight::epipolar {
 struct Resolution {
   int alpha = 512;   ///< view rays a plane: too few show as jagged shadow edges
   int theta = 2048;  ///< epipolar half-planes: too few show as streaks around the epipole
-  int phi = 512;     ///< samples a view ray, a multiple of 128: too few show as noise and missed thin occluders
+  int phi = 512;  ///< samples a view ray, a multiple of 128: too few show as noise and missed thin occluders
   bool operator==(const Resolution&) const = default;
 };
 
@@ -34,8 +34,8 @@ class Grid {
   const gpu::Buffer& block() const { return block_; }          ///< EpipolarBlock
   const gpu::Buffer& phi_range() const { return phi_range_; }  ///< see shaders/epipolar/phi_range.glsl
 
-  /// Binds the block to uniform binding 1, the φ range to storage binding 4, the bits to storage binding 5 and, as texels,
-  /// to sampler 12.
+  /// Binds the block to uniform binding 1, the φ range to storage binding 4, the bits to storage binding 5
+  /// and, as texels, to sampler 12.
   void bind() const;
 
  private:

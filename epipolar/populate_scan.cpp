@@ -10,7 +10,8 @@ namespace {
 
 gpu::Program load(const Resolution& resolution) {
   const auto grid = resolution_constants(resolution);
-  const auto digits = static_cast<std::uint32_t>(std::bit_width(static_cast<std::uint32_t>(resolution.alpha)));
+  const auto digits =
+      static_cast<std::uint32_t>(std::bit_width(static_cast<std::uint32_t>(resolution.alpha)));
   return gpu::Program::compute(k_populate_scan_comp,
                                std::array{grid[0], grid[1], grid[2], gpu::Constant(3, std::max(digits, 3u))});
 }

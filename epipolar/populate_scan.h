@@ -6,9 +6,11 @@
 
 namespace airlight::epipolar {
 
-/// Populates the grid from the shadow map and scans it in the same pass: what PopulateShadowMap and OrScan do, bit for bit.
+/// Populates the grid from the shadow map and scans it in the same pass: what PopulateShadowMap and OrScan
+/// do, bit for bit.
 ///
-/// Bound by the writes alone: N_α · N_θ · N_φ / 8 bytes, each word once. Our own; the paper clears, scatters and scans.
+/// Bound by the writes alone: N_α · N_θ · N_φ / 8 bytes, each word once. Our own; the paper clears, scatters
+/// and scans.
 class PopulateScan {
  public:
   explicit PopulateScan(const Resolution& resolution);

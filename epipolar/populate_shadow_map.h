@@ -6,8 +6,8 @@
 
 namespace airlight::epipolar {
 
-/// Populates the grid by resampling the shadow map (Wyman 2011, section 4.1.3): one look-up a light ray, the bit of the
-/// nearest occluder. Robust for anything that can be rasterised; as exact as the shadow map.
+/// Populates the grid by resampling the shadow map (Wyman 2011, section 4.1.3): one look-up a light ray, the
+/// bit of the nearest occluder. Robust for anything that can be rasterised; as exact as the shadow map.
 class PopulateShadowMap {
  public:
   explicit PopulateShadowMap(const Resolution& resolution);

@@ -14,10 +14,10 @@ struct Axes {
   glm::dvec3 f;     ///< where θ = π/2
 };
 
-/// The axes for a unit direction to the light. They depend on that direction and the world axes alone, so the grid does not
-/// spin with the camera. No choice is continuous everywhere (the hairy ball theorem); this one jumps where the light is
-/// exactly below the eye, which is seen least.
-/// Based on: Frisvad, "Building an Orthonormal Basis from a 3D Unit Vector Without Normalization", JGT 2012, with +Y as pole.
+/// The axes for a unit direction to the light. They depend on that direction and the world axes alone, so the
+/// grid does not spin with the camera. No choice is continuous everywhere (the hairy ball theorem); this one
+/// jumps where the light is exactly below the eye, which is seen least. Based on: Frisvad, "Building an
+/// Orthonormal Basis from a 3D Unit Vector Without Normalization", JGT 2012, with +Y as pole.
 Axes make_axes(glm::dvec3 towards_light);
 
 /// An interval of angles [rad].
@@ -26,7 +26,8 @@ struct Range {
 };
 
 /// The smallest and largest angle between `axis` (unit) and the rays of an image, its borders included
-/// (Wyman 2011, section 4.3). The extremes lie at the corners, at stationary points of the edges, or at ±axis itself.
+/// (Wyman 2011, section 4.3). The extremes lie at the corners, at stationary points of the edges, or at ±axis
+/// itself.
 Range alpha_range(const scene::CameraFrame& camera, glm::dvec3 axis);
 
 /// The uniform block of a view for a grid of `alpha_count` cells in α.

@@ -16,9 +16,9 @@ enum class Scan {
   column,  ///< PopulateShadowMap, then OrScan
 };
 
-/// The voxelized shadow volume of a frame: ranges → populate → scan. Afterwards the bit of voxel (α_i, θ_j, φ_k) says
-/// whether its centre is in shadow.
-/// Based on: Wyman, "Voxelized Shadow Volumes", HPG 2011, section 2.2.
+/// The voxelized shadow volume of a frame: ranges → populate → scan. Afterwards the bit of voxel (α_i, θ_j,
+/// φ_k) says whether its centre is in shadow. Based on: Wyman, "Voxelized Shadow Volumes", HPG 2011,
+/// section 2.2.
 class ShadowVolume {
  public:
   ShadowVolume(const gpu::Context& context, const Resolution& resolution, Scan scan);

@@ -60,7 +60,8 @@ Clusters make_clusters(const scene::Geometry& geometry) {
   for (std::uint32_t i = 0; i < count; ++i) {
     const auto [a, b, c] = corners(geometry, i);
     const glm::dvec3 cell = ((a + b + c) / 3.0 - glm::dvec3(box.lower)) / extent * 2097151.0;
-    codes[i] = spread_bits(static_cast<std::uint64_t>(cell.x)) | spread_bits(static_cast<std::uint64_t>(cell.y)) << 1 |
+    codes[i] = spread_bits(static_cast<std::uint64_t>(cell.x)) |
+               spread_bits(static_cast<std::uint64_t>(cell.y)) << 1 |
                spread_bits(static_cast<std::uint64_t>(cell.z)) << 2;
   }
   Clusters result;
@@ -85,11 +86,10 @@ bool may_touch(const Pyramid& pyramid, const scene::Box& box) {
   const glm::dvec3 centre = (glm::dvec3(box.lower) + glm::dvec3(box.upper)) * 0.5 - pyramid.apex;
   const glm::dvec3 half = (glm::dvec3(box.upper) - glm::dvec3(box.lower)) * 0.5;
   // A box outside one of these planes is outside the pyramid; the slack covers rounding to float on the GPU.
-  const std::array<glm::dvec3, 5> inward = {pyramid.forward,
-                                            pyramid.forward * pyramid.half_width + pyramid.right,
-                                            pyramid.forward * pyramid.half_width - pyramid.right,
-                                            pyramid.forward * pyramid.half_height + pyramid.up,
-                                            pyramid.forward * pyramid.half_height - pyramid.up};
+  const std::array<glm::dvec3, 5> inward = {
+      pyramid.forward, pyramid.forward * pyramid.half_width + pyramid.right,
+      pyramid.forward * pyramid.half_width - pyramid.right,
+      pyramid.forward * pyramid.half_height + pyramid.up, pyramid.forward * pyramid.half_height - pyramid.up};
   const double slack = 1e-5 * (glm::length(centre) + glm::length(half));
   return std::all_of(inward.begin(), inward.end(), [&](const glm::dvec3& n) {
     return glm::dot(n, centre) + glm::dot(glm::abs(n), half) >= -slack * glm::length(n);
@@ -99,7 +99,8 @@ bool may_touch(const Pyramid& pyramid, const scene::Box& box) {
 double distance_to_geometry(const scene::Geometry& geometry, const Clusters& clusters, glm::dvec3 point) {
   std::vector<std::pair<double, const Cluster*>> by_distance;
   by_distance.reserve(clusters.clusters.size());
-  for (const Cluster& cluster : clusters.clusters) by_distance.emplace_back(distance_to_box(point, cluster.box), &cluster);
+  for (const Cluster& cluster : clusters.clusters)
+    by_distance.emplace_back(distance_to_box(point, cluster.box), &cluster);
   std::sort(by_distance.begin(), by_distance.end());
 
   double nearest = std::numeric_limits<double>::infinity();

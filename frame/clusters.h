@@ -14,8 +14,8 @@ struct Cluster {
   scene::Box box;  ///< world space
 };
 
-/// The triangles of a scene in an order where neighbours in the list are neighbours in space, cut into clusters, so
-/// that a pass can leave out what it cannot see.
+/// The triangles of a scene in an order where neighbours in the list are neighbours in space, cut into
+/// clusters, so that a pass can leave out what it cannot see.
 struct Clusters {
   std::vector<std::uint32_t> order;  ///< order[i]: which triangle of the geometry comes i-th
   std::vector<Cluster> clusters;
@@ -28,16 +28,16 @@ Clusters make_clusters(const scene::Geometry& geometry);
 
 /// A pyramid without a base, open at infinity.
 struct Pyramid {
-  glm::dvec3 apex;                            ///< world space
-  glm::dvec3 right, up, forward;              ///< orthonormal
-  double half_width, half_height;             ///< slopes of its sides
+  glm::dvec3 apex;                 ///< world space
+  glm::dvec3 right, up, forward;   ///< orthonormal
+  double half_width, half_height;  ///< slopes of its sides
 };
 
 /// Whether a box may touch the pyramid: never wrongly "no".
 bool may_touch(const Pyramid& pyramid, const scene::Box& box);
 
-/// A lower bound of the distance from a point to the geometry [m], exact where the geometry's nearest triangle
-/// decides; +Inf without triangles.
+/// A lower bound of the distance from a point to the geometry [m], exact where the geometry's nearest
+/// triangle decides; +Inf without triangles.
 double distance_to_geometry(const scene::Geometry& geometry, const Clusters& clusters, glm::dvec3 point);
 
 }  // namespace airlight::frame

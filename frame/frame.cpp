@@ -18,17 +18,17 @@ namespace {
 using scene::Error;
 using scene::ExitCode;
 
-/// The depth at which a pyramid at `apex` starts to order surfaces. As large as the scene allows, because depth is
-/// interpolated on triangles that reach up to it; not smaller than 1e-4 of the distance between eye and light, where
-/// single precision on a triangle that passes the apex would leave no digits.
+/// The depth at which a pyramid at `apex` starts to order surfaces. As large as the scene allows, because
+/// depth is interpolated on triangles that reach up to it; not smaller than 1e-4 of the distance between eye
+/// and light, where single precision on a triangle that passes the apex would leave no digits.
 float near_depth(const SceneBuffers& scene, glm::dvec3 apex, double eye_light_distance) {
   // The nearest point may lie in the corner of a cube face, where depth is 1/√3 of distance.
   const double nearest = 0.5 * scene.distance_to(apex);
   return static_cast<float>(std::clamp(nearest, 1e-4 * eye_light_distance, eye_light_distance));
 }
 
-shaders::ViewBlock view_block(const SceneBuffers& scene, const scene::View& view, const scene::CameraFrame& camera,
-                              int shadow_map_size) {
+shaders::ViewBlock view_block(const SceneBuffers& scene, const scene::View& view,
+                              const scene::CameraFrame& camera, int shadow_map_size) {
   const glm::dvec3 to_light = view.light.position - camera.eye;
   const double eye_light_distance = glm::length(to_light);
   const glm::vec3 eye_high(camera.eye);
@@ -97,8 +97,8 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
     const int limit = std::min(context_.limits().max_texture_size, context_.limits().max_viewport);
     if (std::max(view.size.x, view.size.y) > limit) {
       throw Error(ExitCode::driver, "--size",
-                  fmt::format("{}x{} pixels are more than this driver's {} (GL_MAX_TEXTURE_SIZE)", view.size.x,
-                              view.size.y, limit),
+                  fmt::format("{}x{} pixels are more than this driver's {} (GL_MAX_TEXTURE_SIZE)",
+                              view.size.x, view.size.y, limit),
                   "ask for a smaller image");
     }
     gbuffer_.emplace(view.size);
@@ -118,8 +118,12 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
   if (needs_shadow_map) {
     timer.time("shadow_map", [&] { shadow_map_->draw(scene_, view.light.position); });
   }
-  const FrameInputs inputs{.context = context_, .view = view, .scene = scene_, .triangles = gbuffer_->triangles(),
-                           .surfaces = gbuffer_->surfaces(), .shadow_map = needs_shadow_map ? &*shadow_map_ : nullptr,
+  const FrameInputs inputs{.context = context_,
+                           .view = view,
+                           .scene = scene_,
+                           .triangles = gbuffer_->triangles(),
+                           .surfaces = gbuffer_->surfaces(),
+                           .shadow_map = needs_shadow_map ? &*shadow_map_ : nullptr,
                            .timer = timer};
   timer.time("surface_query", [&] { surface_shadow.query(inputs, visibility_); });
   airlight.integrate(inputs, airlight_);  // times its own stages
@@ -140,7 +144,8 @@ FrameImages Frame::read() const {
   images.size = radiance_.size();
   images.radiance = read_rgb(radiance_, "radiance");
   images.airlight = read_rgb(airlight_, "airlight");
-  for (const glm::vec4& surface : gbuffer_->surfaces().read<glm::vec4>()) images.distance.push_back(surface.w);
+  for (const glm::vec4& surface : gbuffer_->surfaces().read<glm::vec4>())
+    images.distance.push_back(surface.w);
   images.visibility = visibility_.read<float>();
   for (std::size_t i = 0; i < images.visibility.size(); ++i) {
     if (images.distance[i] == 0.0f) images.visibility[i] = 0.0f;

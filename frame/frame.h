@@ -16,8 +16,9 @@ struct FrameImages {
   glm::ivec2 size{0};
   std::vector<glm::vec3> radiance;  ///< surfaces and airlight [W/(m² sr)]
   std::vector<glm::vec3> airlight;  ///< airlight alone [W/(m² sr)]
-  std::vector<float> visibility;    ///< 1 where a surface sees the light, 0 in shadow and where no surface is seen
-  std::vector<float> distance;      ///< along the view ray [m], 0 where no surface is seen
+  std::vector<float>
+      visibility;  ///< 1 where a surface sees the light, 0 in shadow and where no surface is seen
+  std::vector<float> distance;  ///< along the view ray [m], 0 where no surface is seen
 };
 
 /// Renders frames of one scene:
@@ -29,8 +30,10 @@ class Frame {
   Frame(gpu::Context& context, const scene::Geometry& geometry, int shadow_map_size);
 
   /// Issues all work of one frame to the GPU, without waiting for it where `timer` is off.
-  /// @throws scene::Error (bad_file) where scene::validate does; (driver) for an image over the driver's limit.
-  void render(const scene::View& view, SurfaceShadow& surface_shadow, Airlight& airlight, gpu::StageTimer& timer);
+  /// @throws scene::Error (bad_file) where scene::validate does; (driver) for an image over the driver's
+  /// limit.
+  void render(const scene::View& view, SurfaceShadow& surface_shadow, Airlight& airlight,
+              gpu::StageTimer& timer);
 
   /// Waits for the last frame.
   /// @throws scene::Error (driver) when it holds NaN or infinity: never shown as a colour.

@@ -17,8 +17,12 @@ GBuffer::GBuffer(glm::ivec2 size)
 void GBuffer::draw(const SceneBuffers& scene, const scene::CameraFrame& camera) const {
   framebuffer_.begin();
   draw_.use();
-  scene.draw({.apex = camera.eye, .right = camera.right, .up = camera.up, .forward = camera.forward,
-              .half_width = camera.half_width, .half_height = camera.half_height});
+  scene.draw({.apex = camera.eye,
+              .right = camera.right,
+              .up = camera.up,
+              .forward = camera.forward,
+              .half_width = camera.half_width,
+              .half_height = camera.half_height});
   scene.bind_samplers();
   triangles_.bind_sampler(0);
   surfaces_.bind_image(0);

@@ -6,7 +6,8 @@
 
 namespace airlight::frame {
 
-/// What each view ray hits first: the triangle, its normal and distance. The material follows from the triangle.
+/// What each view ray hits first: the triangle, its normal and distance. The material follows from the
+/// triangle.
 class GBuffer {
  public:
   explicit GBuffer(glm::ivec2 size);

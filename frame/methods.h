@@ -15,14 +15,16 @@ namespace airlight::frame {
 class SceneBuffers;
 class ShadowMap;
 
-/// What the methods of a frame read. The view's uniform block is bound at uniform binding 0 (shaders/frame/view.glsl).
+/// What the methods of a frame read. The view's uniform block is bound at uniform binding 0
+/// (shaders/frame/view.glsl).
 struct FrameInputs {
   gpu::Context& context;
   const scene::View& view;
   const SceneBuffers& scene;
   const gpu::Texture& triangles;  ///< r32ui: number of the triangle seen + 1, 0 for none
-  const gpu::Texture& surfaces;   ///< rgba32f: unit normal towards the eye, distance along the unit view ray [m]; 0 for none
-  const ShadowMap* shadow_map;    ///< nullptr unless a method needs it
+  const gpu::Texture&
+      surfaces;  ///< rgba32f: unit normal towards the eye, distance along the unit view ray [m]; 0 for none
+  const ShadowMap* shadow_map;  ///< nullptr unless a method needs it
   gpu::StageTimer& timer;
 };
 

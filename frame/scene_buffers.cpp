@@ -69,14 +69,17 @@ void SceneBuffers::draw(const Pyramid& pyramid) const {
     }
     const std::size_t first = i;
     std::uint32_t triangles = 0;
-    for (; i < clusters.size() && may_touch(pyramid, clusters[i].box); ++i) triangles += clusters[i].triangle_count;
+    for (; i < clusters.size() && may_touch(pyramid, clusters[i].box); ++i)
+      triangles += clusters[i].triangle_count;
     const auto offset = static_cast<std::uintptr_t>(clusters[first].first_triangle) * sizeof(glm::uvec3);
     glDrawElementsInstancedBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(3 * triangles), GL_UNSIGNED_INT,
                                         reinterpret_cast<const void*>(offset), 1, static_cast<GLuint>(first));
   }
 }
 
-double SceneBuffers::distance_to(glm::dvec3 point) const { return distance_to_geometry(*geometry_, clusters_, point); }
+double SceneBuffers::distance_to(glm::dvec3 point) const {
+  return distance_to_geometry(*geometry_, clusters_, point);
+}
 
 std::int64_t SceneBuffers::bytes() const {
   return positions_.bytes() + triangles_.bytes() + albedos_.bytes() + material_of_triangle_.bytes();

@@ -8,7 +8,8 @@
 
 namespace airlight::frame {
 
-/// A scene's geometry on the GPU, in the order of its clusters. Triangle numbers of the shaders count in that order.
+/// A scene's geometry on the GPU, in the order of its clusters. Triangle numbers of the shaders count in that
+/// order.
 class SceneBuffers {
  public:
   /// @throws scene::Error (driver) when a buffer would be larger than the driver allows.
@@ -17,7 +18,8 @@ class SceneBuffers {
   /// Binds positions, triangles, albedos and materials to samplers 8 to 11.
   void bind_samplers() const;
 
-  /// Draws what may lie in the pyramid. Vertex attributes: 0 = world position, 1 = first triangle of the draw.
+  /// Draws what may lie in the pyramid. Vertex attributes: 0 = world position, 1 = first triangle of the
+  /// draw.
   void draw(const Pyramid& pyramid) const;
 
   /// See frame::distance_to_geometry.

@@ -14,9 +14,10 @@ namespace airlight::frame {
 ShadowMap::ShadowMap(const gpu::Context& context, int size) {
   const int limit = std::min(context.limits().max_texture_size, context.limits().max_viewport);
   if (size > limit) {
-    throw scene::Error(scene::ExitCode::driver, "--shadow-map",
-                       fmt::format("{} texels are more than this driver's {} (GL_MAX_TEXTURE_SIZE)", size, limit),
-                       "ask for a smaller one");
+    throw scene::Error(
+        scene::ExitCode::driver, "--shadow-map",
+        fmt::format("{} texels are more than this driver's {} (GL_MAX_TEXTURE_SIZE)", size, limit),
+        "ask for a smaller one");
   }
   depth_ = gpu::Texture(gpu::Format::depth32f, {size, size}, 6);
   for (int face = 0; face < 6; ++face) faces_.emplace_back(nullptr, depth_, face);
@@ -32,8 +33,12 @@ void ShadowMap::draw(const SceneBuffers& scene, glm::dvec3 light) const {
     const int axis = face / 2;
     const auto unit = [](int i) { return glm::dvec3(i == 0, i == 1, i == 2); };
     const glm::dvec3 forward = unit(axis) * (face % 2 == 0 ? 1.0 : -1.0);
-    scene.draw({.apex = light, .right = unit((axis + 1) % 3), .up = unit((axis + 2) % 3), .forward = forward,
-                .half_width = 1.0, .half_height = 1.0});
+    scene.draw({.apex = light,
+                .right = unit((axis + 1) % 3),
+                .up = unit((axis + 2) % 3),
+                .forward = forward,
+                .half_width = 1.0,
+                .half_height = 1.0});
   }
 }
 

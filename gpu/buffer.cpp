@@ -6,22 +6,33 @@
 
 namespace airlight::gpu {
 
-void delete_buffer(unsigned name) { glDeleteBuffers(1, &name); }
-void delete_vertex_array(unsigned name) { glDeleteVertexArrays(1, &name); }
+void delete_buffer(unsigned name) {
+  glDeleteBuffers(1, &name);
+}
+void delete_vertex_array(unsigned name) {
+  glDeleteVertexArrays(1, &name);
+}
 
 Buffer::Buffer(std::int64_t bytes, const void* data) : bytes_(bytes) {
   GLuint name = 0;
   glCreateBuffers(1, &name);
   handle_ = Handle<delete_buffer>(name);
-  glNamedBufferStorage(name, std::max<GLsizeiptr>(bytes, 4), bytes > 0 ? data : nullptr, GL_DYNAMIC_STORAGE_BIT);
+  glNamedBufferStorage(name, std::max<GLsizeiptr>(bytes, 4), bytes > 0 ? data : nullptr,
+                       GL_DYNAMIC_STORAGE_BIT);
   if (!data) clear();
 }
 
-void Buffer::bind_storage(unsigned binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name()); }
+void Buffer::bind_storage(unsigned binding) const {
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name());
+}
 
-void Buffer::bind_uniform(unsigned binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, binding, name()); }
+void Buffer::bind_uniform(unsigned binding) const {
+  glBindBufferBase(GL_UNIFORM_BUFFER, binding, name());
+}
 
-void Buffer::write(const void* data, std::int64_t bytes) const { glNamedBufferSubData(name(), 0, bytes, data); }
+void Buffer::write(const void* data, std::int64_t bytes) const {
+  glNamedBufferSubData(name(), 0, bytes, data);
+}
 
 void Buffer::clear() const {
   glClearNamedBufferData(name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);

@@ -47,15 +47,22 @@ std::vector<EGLDisplay> candidate_displays() {
 EGLContext try_context(EGLDisplay display) {
   if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) return EGL_NO_CONTEXT;
   if (!eglBindAPI(EGL_OPENGL_API)) return EGL_NO_CONTEXT;
-  const EGLint config_attributes[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, EGL_DONT_CARE, EGL_NONE};
+  const EGLint config_attributes[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, EGL_DONT_CARE,
+                                      EGL_NONE};
   EGLConfig config = nullptr;
   EGLint config_count = 0;
   if (!eglChooseConfig(display, config_attributes, &config, 1, &config_count) || config_count == 0) {
     return EGL_NO_CONTEXT;
   }
-  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
-                               EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                               EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE, EGL_NONE};
+  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                               4,
+                               EGL_CONTEXT_MINOR_VERSION,
+                               5,
+                               EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                               EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                               EGL_CONTEXT_OPENGL_DEBUG,
+                               EGL_TRUE,
+                               EGL_NONE};
   EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes);
   if (context == EGL_NO_CONTEXT) return EGL_NO_CONTEXT;
   if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) return context;
@@ -63,7 +70,8 @@ EGLContext try_context(EGLDisplay display) {
   return EGL_NO_CONTEXT;
 }
 
-void collect_error(GLenum, GLenum, GLuint, GLenum severity, GLsizei, const GLchar* message, const void* errors) {
+void collect_error(GLenum, GLenum, GLuint, GLenum severity, GLsizei, const GLchar* message,
+                   const void* errors) {
   if (severity != GL_DEBUG_SEVERITY_HIGH) return;
   auto& text = *static_cast<std::string*>(const_cast<void*>(errors));
   text += text.empty() ? "" : " | ";
@@ -101,9 +109,11 @@ Context::Context() {
 
   device_.renderer = gl_string(GL_RENDERER);
   device_.version = gl_string(GL_VERSION);
-  device_.is_software = lists(device_.renderer.c_str(), "llvmpipe") || lists(device_.renderer.c_str(), "softpipe");
+  device_.is_software =
+      lists(device_.renderer.c_str(), "llvmpipe") || lists(device_.renderer.c_str(), "softpipe");
   if (!epoxy_has_gl_extension("GL_ARB_gl_spirv") && epoxy_gl_version() < 46) {
-    throw Error(ExitCode::driver, device_.renderer, "GL_ARB_gl_spirv is missing", "use a driver with OpenGL 4.6");
+    throw Error(ExitCode::driver, device_.renderer, "GL_ARB_gl_spirv is missing",
+                "use a driver with OpenGL 4.6");
   }
   GLint64 storage_block = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &storage_block);

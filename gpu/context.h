@@ -36,7 +36,8 @@ class Context {
   const Device& device() const { return device_; }
   const Limits& limits() const { return limits_; }
 
-  /// @throws scene::Error (driver) with the driver's words, if it sent a message of high severity since the last check.
+  /// @throws scene::Error (driver) with the driver's words, if it sent a message of high severity since the
+  /// last check.
   void check();
 
   /// Waits until the GPU has done all work, then checks.
@@ -50,7 +51,9 @@ class Context {
   std::string errors_;
 };
 
-/// @throws scene::Error (driver) naming the limit when `bytes` is more than one shader storage buffer may hold.
-void require_storage_block(const Limits& limits, std::int64_t bytes, const std::string& what, const std::string& remedy);
+/// @throws scene::Error (driver) naming the limit when `bytes` is more than one shader storage buffer may
+/// hold.
+void require_storage_block(const Limits& limits, std::int64_t bytes, const std::string& what,
+                           const std::string& remedy);
 
 }  // namespace airlight::gpu

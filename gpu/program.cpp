@@ -59,7 +59,9 @@ GLuint link(std::initializer_list<Stage> stages, std::span<const Constant> const
 
 }  // namespace
 
-void delete_program(unsigned name) { glDeleteProgram(name); }
+void delete_program(unsigned name) {
+  glDeleteProgram(name);
+}
 
 Program Program::compute(std::span<const std::uint32_t> spirv, std::span<const Constant> constants) {
   return Program(link({{GL_COMPUTE_SHADER, spirv}}, constants));
@@ -69,7 +71,9 @@ Program Program::graphics(std::span<const std::uint32_t> vertex, std::span<const
   return Program(link({{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}}, {}));
 }
 
-void Program::use() const { glUseProgram(handle_.get()); }
+void Program::use() const {
+  glUseProgram(handle_.get());
+}
 
 void Program::dispatch(glm::uvec3 invocations, glm::uvec3 group) const {
   use();

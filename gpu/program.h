@@ -30,8 +30,8 @@ class Program {
 
   void use() const;
 
-  /// Runs a compute program on enough work groups of `group` invocations to cover `invocations`, with all memory
-  /// barriers that later shaders, draws and copies need.
+  /// Runs a compute program on enough work groups of `group` invocations to cover `invocations`, with all
+  /// memory barriers that later shaders, draws and copies need.
   void dispatch(glm::uvec3 invocations, glm::uvec3 group) const;
 
  private:

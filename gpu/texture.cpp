@@ -18,14 +18,22 @@ struct FormatInfo {
 
 FormatInfo format_info(Format format) {
   switch (format) {
-    case Format::r32ui: return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 1};
-    case Format::rgb32ui: return {GL_RGB32UI, GL_RGB_INTEGER, GL_UNSIGNED_INT, 3};
-    case Format::rgba32ui: return {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 4};
-    case Format::rg32f: return {GL_RG32F, GL_RG, GL_FLOAT, 2};
-    case Format::rgb32f: return {GL_RGB32F, GL_RGB, GL_FLOAT, 3};
-    case Format::r32f: return {GL_R32F, GL_RED, GL_FLOAT, 1};
-    case Format::rgba32f: return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 4};
-    case Format::depth32f: return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 1};
+    case Format::r32ui:
+      return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 1};
+    case Format::rgb32ui:
+      return {GL_RGB32UI, GL_RGB_INTEGER, GL_UNSIGNED_INT, 3};
+    case Format::rgba32ui:
+      return {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 4};
+    case Format::rg32f:
+      return {GL_RG32F, GL_RG, GL_FLOAT, 2};
+    case Format::rgb32f:
+      return {GL_RGB32F, GL_RGB, GL_FLOAT, 3};
+    case Format::r32f:
+      return {GL_R32F, GL_RED, GL_FLOAT, 1};
+    case Format::rgba32f:
+      return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 4};
+    case Format::depth32f:
+      return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 1};
   }
   assert(false);
   return {};
@@ -33,8 +41,12 @@ FormatInfo format_info(Format format) {
 
 }  // namespace
 
-void delete_texture(unsigned name) { glDeleteTextures(1, &name); }
-void delete_framebuffer(unsigned name) { glDeleteFramebuffers(1, &name); }
+void delete_texture(unsigned name) {
+  glDeleteTextures(1, &name);
+}
+void delete_framebuffer(unsigned name) {
+  glDeleteFramebuffers(1, &name);
+}
 
 Texture::Texture(Format format, glm::ivec2 size, int layers) : format_(format), size_(size), layers_(layers) {
   GLuint name = 0;
@@ -55,7 +67,9 @@ std::int64_t Texture::bytes() const {
   return std::int64_t{4} * format_info(format_).channels * size_.x * size_.y * layers_;
 }
 
-void Texture::bind_sampler(unsigned unit) const { glBindTextureUnit(unit, name()); }
+void Texture::bind_sampler(unsigned unit) const {
+  glBindTextureUnit(unit, name());
+}
 
 void Texture::bind_image(unsigned unit) const {
   glBindImageTexture(unit, name(), 0, GL_FALSE, 0, GL_READ_WRITE, format_info(format_).internal_format);
@@ -78,8 +92,8 @@ TexelView::TexelView(const Context& context, const Buffer& buffer, Format format
   const std::int64_t texels = buffer.bytes() / (4 * info.channels);
   if (texels > context.limits().max_texel_buffer_texels) {
     throw scene::Error(scene::ExitCode::driver, what,
-                       fmt::format("{} elements are more than this driver's {} (GL_MAX_TEXTURE_BUFFER_SIZE)", texels,
-                                   context.limits().max_texel_buffer_texels));
+                       fmt::format("{} elements are more than this driver's {} (GL_MAX_TEXTURE_BUFFER_SIZE)",
+                                   texels, context.limits().max_texel_buffer_texels));
   }
   GLuint name = 0;
   glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);
@@ -87,7 +101,9 @@ TexelView::TexelView(const Context& context, const Buffer& buffer, Format format
   glTextureBuffer(name, info.internal_format, buffer.name());
 }
 
-void TexelView::bind_sampler(unsigned unit) const { glBindTextureUnit(unit, handle_.get()); }
+void TexelView::bind_sampler(unsigned unit) const {
+  glBindTextureUnit(unit, handle_.get());
+}
 
 Framebuffer::Framebuffer(const Texture* colour, const Texture& depth, int depth_layer)
     : size_(depth.size()), has_colour_(colour != nullptr) {

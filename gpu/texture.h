@@ -53,8 +53,9 @@ class Texture {
   int layers_ = 0;
 };
 
-/// A buffer seen through a sampler (usamplerBuffer, samplerBuffer): what shaders only read, they read this way. llvmpipe
-/// fetches texels ten times faster than it loads from storage blocks; on a GPU the two cost the same.
+/// A buffer seen through a sampler (usamplerBuffer, samplerBuffer): what shaders only read, they read this
+/// way. llvmpipe fetches texels ten times faster than it loads from storage blocks; on a GPU the two cost the
+/// same.
 class TexelView {
  public:
   TexelView() = default;

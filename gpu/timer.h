@@ -10,9 +10,9 @@ namespace airlight::gpu {
 
 /// Wall-clock time of the stages of a frame.
 ///
-/// Where stages are timed, the GPU is finished at both ends of each, so that a stage's time is its own: a software
-/// driver bins and defers its draws, and its timestamp queries do not see that. This costs a GPU its overlap between
-/// stages, so whole frames are timed with a timer that is off.
+/// Where stages are timed, the GPU is finished at both ends of each, so that a stage's time is its own: a
+/// software driver bins and defers its draws, and its timestamp queries do not see that. This costs a GPU its
+/// overlap between stages, so whole frames are timed with a timer that is off.
 class StageTimer {
  public:
   /// @param context finished around each stage; nullptr turns the timer off

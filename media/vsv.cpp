@@ -14,11 +14,12 @@
 namespace airlight::media {
 namespace {
 
-/// Rows of the table in α. S is smooth in α: linear interpolation between 256 rows over at most π errs by 2e-5 of S.
+/// Rows of the table in α. S is smooth in α: linear interpolation between 256 rows over at most π errs by
+/// 2e-5 of S.
 constexpr std::uint32_t k_table_rows = 256;
 
-/// How many cells a ray must cross for the table to serve it: 0, any will do, unless the view comes so near to α = π, where
-/// φ_d ≤ π − α, that its rays may end within four of the widest cells.
+/// How many cells a ray must cross for the table to serve it: 0, any will do, unless the view comes so near
+/// to α = π, where φ_d ≤ π − α, that its rays may end within four of the widest cells.
 std::uint32_t direct_cells(const shaders::EpipolarBlock& space, const epipolar::Resolution& resolution) {
   constexpr std::uint32_t k_cells = 4;
   constexpr float k_widest = 1.8f;  // of φ_max / N_φ, at the largest growth (shaders/media/phi_growth.comp)
@@ -31,14 +32,21 @@ std::uint32_t direct_cells(const shaders::EpipolarBlock& space, const epipolar::
 
 Vsv::Vsv(const gpu::Context& context, const epipolar::Resolution& resolution, VsvIntegral integral,
          epipolar::Scan scan, PhiCells phi_cells)
-    : volume_(context, resolution, scan), integral_(integral), phi_cells_(phi_cells), medium_block_(sizeof(shaders::MediumBlock)) {}
+    : volume_(context, resolution, scan),
+      integral_(integral),
+      phi_cells_(phi_cells),
+      medium_block_(sizeof(shaders::MediumBlock)) {}
 
 void Vsv::load(const gpu::Context& context, const Variant& variant) {
   if (loaded_ == variant) return;
   const epipolar::Resolution& resolution = volume_.grid().resolution();
   const auto grid = epipolar::resolution_constants(resolution);
-  const std::array<gpu::Constant, 7> constants = {grid[0], grid[1], grid[2], gpu::Constant(3, variant.phase),
-                                                  gpu::Constant(4, variant.channels), gpu::Constant(5, k_table_rows),
+  const std::array<gpu::Constant, 7> constants = {grid[0],
+                                                  grid[1],
+                                                  grid[2],
+                                                  gpu::Constant(3, variant.phase),
+                                                  gpu::Constant(4, variant.channels),
+                                                  gpu::Constant(5, k_table_rows),
                                                   gpu::Constant(6, variant.direct)};
   phi_growth_ = gpu::Program::compute(k_phi_growth_comp, std::array{grid[0], constants[3]});
   if (integral_ == VsvIntegral::table) {

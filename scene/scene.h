@@ -22,8 +22,8 @@ struct Material {
 /// All values are finite, no triangle has zero area, and the extent is small enough that squared distances
 /// do not overflow: the importers refuse or drop (and count) what is not.
 struct Geometry {
-  std::vector<glm::vec3> positions;          ///< world space [m]
-  std::vector<glm::uvec3> triangles;         ///< indices into `positions`
+  std::vector<glm::vec3> positions;                 ///< world space [m]
+  std::vector<glm::uvec3> triangles;                ///< indices into `positions`
   std::vector<std::uint32_t> material_of_triangle;  ///< indices into `materials`, one a triangle
   std::vector<Material> materials;
 };
@@ -45,9 +45,9 @@ Box bounds(const Geometry& geometry);
 /// A pinhole camera. The image plane's aspect ratio comes from the image, not from here.
 struct Camera {
   std::string name;
-  glm::dvec3 eye{0.0};              ///< world space [m]
+  glm::dvec3 eye{0.0};                ///< world space [m]
   glm::dvec3 target{0.0, 0.0, -1.0};  ///< any point straight ahead, world space [m]
-  glm::dvec3 up{0.0, 1.0, 0.0};     ///< need not be perpendicular to the view
+  glm::dvec3 up{0.0, 1.0, 0.0};       ///< need not be perpendicular to the view
   double vertical_fov_degrees = 45.0;
 };
 
@@ -60,14 +60,14 @@ struct CameraFrame {
   double half_width, half_height;  ///< tangents of half the horizontal and vertical fields of view
 };
 
-/// @throws Error (usage) when eye and target coincide, up is parallel to the view, the field of view is not inside
-/// (0°, 180°), a value is not finite, or the image has no pixels.
+/// @throws Error (usage) when eye and target coincide, up is parallel to the view, the field of view is not
+/// inside (0°, 180°), a value is not finite, or the image has no pixels.
 CameraFrame camera_frame(const Camera& camera, glm::ivec2 image_size);
 
 /// A light that radiates alike in all directions from one point.
 struct PointLight {
   std::string name;
-  glm::dvec3 position{0.0};  ///< world space [m]
+  glm::dvec3 position{0.0};   ///< world space [m]
   glm::vec3 intensity{1.0f};  ///< radiant intensity, RGB [W/sr]; candela of a glTF file are read one to one
 };
 
@@ -107,8 +107,8 @@ struct View {
 };
 
 /// Checks what every method relies on.
-/// @throws Error (bad_file) when the light coincides with the eye, or a value of the view is out of its domain
-/// (not finite, negative intensity or coefficient, |g| ≥ 1); (usage) as `camera_frame`.
+/// @throws Error (bad_file) when the light coincides with the eye, or a value of the view is out of its
+/// domain (not finite, negative intensity or coefficient, |g| ≥ 1); (usage) as `camera_frame`.
 void validate(const View& view);
 
 /// A camera that sees all of the geometry, from the front (+Z), slightly above.

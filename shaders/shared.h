@@ -1,4 +1,5 @@
-// The C++ side of the shader functions: include this before a *.glsl file, inside namespace airlight::shaders.
+// The C++ side of the shader functions: include this before a *.glsl file, inside namespace
+// airlight::shaders.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +16,13 @@
 namespace airlight::shaders {
 
 using uint = std::uint32_t;
-using glm::abs, glm::ceil, glm::clamp, glm::cos, glm::cross, glm::dot, glm::exp, glm::floor, glm::length, glm::max,
-    glm::min, glm::mix, glm::normalize, glm::pow, glm::sin, glm::sqrt, glm::tan;
+using glm::abs, glm::ceil, glm::clamp, glm::cos, glm::cross, glm::dot, glm::exp, glm::floor, glm::length,
+    glm::max, glm::min, glm::mix, glm::normalize, glm::pow, glm::sin, glm::sqrt, glm::tan;
 using glm::ivec2, glm::ivec3, glm::uvec2, glm::uvec3, glm::uvec4, glm::vec2, glm::vec3, glm::vec4;
 
 /// GLSL's two-argument atan.
-inline float atan(float y, float x) { return std::atan2(y, x); }
+inline float atan(float y, float x) {
+  return std::atan2(y, x);
+}
 
 }  // namespace airlight::shaders

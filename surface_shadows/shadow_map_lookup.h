@@ -6,8 +6,8 @@
 namespace airlight::surface_shadows {
 
 /// `shadow-map`: one look-up of the shadow cube a pixel, nearest texel, receiver plane as bias.
-/// Based on: Williams, "Casting Curved Shadows on Curved Surfaces", SIGGRAPH 1978; the receiver plane after Schüler,
-/// "High Quality Shadow Mapping", ShaderX4, 2006.
+/// Based on: Williams, "Casting Curved Shadows on Curved Surfaces", SIGGRAPH 1978; the receiver plane after
+/// Schüler, "High Quality Shadow Mapping", ShaderX4, 2006.
 class ShadowMapLookup : public frame::SurfaceShadow {
  public:
   ShadowMapLookup();
