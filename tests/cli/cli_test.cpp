@@ -55,7 +55,7 @@ class CommandLine : public testing::Test {
   fs::path file(const std::string& name) const { return folder_ / name; }
 
   Result shell(const std::string& command) const {
-    const std::string line = fmt::format("cd {} && {} >stdout 2>stderr </dev/null",
+    const std::string line = fmt::format("cd {} && ( {} ) >stdout 2>stderr </dev/null",
                                          quality::shell_quote(folder_.string()), command);
     const int status = std::system(line.c_str());
     EXPECT_TRUE(WIFEXITED(status)) << command;
@@ -64,17 +64,16 @@ class CommandLine : public testing::Test {
 
   Result airlight(const Words& arguments) const {
     std::string command = quality::shell_quote(AIRLIGHT_BINARY);
-    for (const std::string& argument : arguments) command += fmt::format(" {}", quality::shell_quote(argument));
+    for (const std::string& argument : arguments)
+      command += fmt::format(" {}", quality::shell_quote(argument));
     return shell(command);
   }
 
   /// Runs with a small image, grid and shadow map, where `arguments` do not say otherwise.
   Result small(Words arguments) const {
-    const std::vector<std::pair<std::string, std::string>> defaults = {{"--size", "32x32"},
-                                                                       {"--alpha", "64"},
-                                                                       {"--theta", "128"},
-                                                                       {"--phi", "128"},
-                                                                       {"--shadow-map", "128"}};
+    const std::vector<std::pair<std::string, std::string>> defaults = {
+        {"--size", "32x32"}, {"--alpha", "64"},       {"--theta", "128"},
+        {"--phi", "128"},    {"--shadow-map", "128"}, {"--reference-samples", "128"}};
     for (const auto& [name, value] : defaults) {
       if (std::find(arguments.begin(), arguments.end(), name) != arguments.end()) continue;
       arguments.insert(arguments.end(), {name, value});
@@ -95,7 +94,7 @@ class CommandLine : public testing::Test {
   }
 
   Json compare(const Words& arguments) const {
-    Words all = {"compare", "cornell", "-o", "out", "--frames", "2", "--reference-samples", "64"};
+    Words all = {"compare", "cornell", "-o", "out", "--frames", "2"};
     all.insert(all.end(), arguments.begin(), arguments.end());
     const Result result = small(all);
     EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -157,6 +156,10 @@ struct Misuse {
   Words arguments;
   std::string says;
 };
+
+void PrintTo(const Misuse& misuse, std::ostream* stream) {
+  *stream << testing::PrintToString(misuse.arguments);
+}
 
 class Usage : public CommandLine, public testing::WithParamInterface<Misuse> {};
 
@@ -251,6 +254,13 @@ TEST_F(BadFile, UnwritableOutputIsFoundBeforeTheWork) {
     words.insert(words.end(), huge.begin(), huge.end());
     expect_one_line_error(airlight(words), 3);
   }
+}
+
+TEST_F(BadFile, FullDiskIsAnError) {
+  const Result result =
+      small({"compare", "cornell", "-o", "out", "--volume", "vsv", "--frames", "1", "--json", "/dev/full"});
+  expect_one_line_error(result, 3);
+  EXPECT_THAT(result.err, HasSubstr("/dev/full"));
 }
 
 TEST_F(BadFile, LightAtTheEyeIsRefused) {
@@ -425,7 +435,7 @@ TEST_F(SceneFile, WarningsReachStandardErrorAndTheResults) {
   words.insert(words.end(), light_.begin(), light_.end());
   const Result result = small(words);
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("1 triangle"));
+  EXPECT_THAT(result.err, HasSubstr("zero area dropped: 1"));
   EXPECT_EQ(Json::parse(read_text(file("out/results.json")))["scene"]["degenerate_triangles"], 1);
   words.push_back("--quiet");
   EXPECT_THAT(small(words).err, IsEmpty());
@@ -464,8 +474,7 @@ TEST_F(Compare, WritesEveryImageAndTheReport) {
 }
 
 TEST_F(Compare, JudgesByTheReference) {
-  const Json results = compare({"--volume", "none,vsv,reference,reference-march", "--surface", "reference",
-                                "--reference-samples", "512"});
+  const Json results = compare({"--volume", "none,vsv,reference,reference-march", "--surface", "reference"});
   const Json &none = results["runs"][0], &vsv = results["runs"][1], &reference = results["runs"][2],
              &march = results["runs"][3];
   EXPECT_EQ(none["error"]["airlight"]["bias"], -1.0);
@@ -535,7 +544,7 @@ TEST_F(Compare, MissedAccuracyIsOneAfterEverythingIsWritten) {
 }
 
 TEST_F(Compare, DefaultsToTheWindowAndItsOwnFolder) {
-  const Result result = small({"compare", "--frames", "1", "--reference-samples", "16", "--size", "16x16"});
+  const Result result = small({"compare", "--frames", "1", "--size", "16x16"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   const Json results = Json::parse(read_text(file("out/window/results.json")));
   ASSERT_EQ(results["runs"].size(), 3u);

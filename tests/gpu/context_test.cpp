@@ -60,6 +60,7 @@ TEST(Context, ABufferOverTheLimitIsAnErrorThatNamesIt) {
 }
 
 TEST(Buffer, KeepsWhatIsWritten) {
+  Context& context = gpu_context();
   const std::vector<std::uint32_t> values = {1, 2, 3, 0xffffffffu};
   const Buffer buffer = Buffer::from(std::span<const std::uint32_t>(values));
   EXPECT_EQ(buffer.bytes(), 16);
@@ -68,17 +69,18 @@ TEST(Buffer, KeepsWhatIsWritten) {
   EXPECT_EQ(buffer.read<std::uint32_t>(), std::vector<std::uint32_t>(4, 0));
   EXPECT_EQ(Buffer(12).read<std::uint32_t>(), std::vector<std::uint32_t>(3, 0)) << "new storage is zero";
   EXPECT_TRUE(Buffer(0).read<std::uint32_t>().empty());
-  gpu_context().check();
+  context.check();
 }
 
 TEST(Texture, KeepsItsRowsInOrder) {
+  Context& context = gpu_context();
   const Texture texture(Format::rgba32f, {3, 2});
   std::vector<glm::vec4> values;
   for (int i = 0; i < 6; ++i) values.emplace_back(i, 10 * i, -i, 1e30f);
   texture.write(values.data());
   EXPECT_EQ(texture.read<glm::vec4>(), values);
   EXPECT_EQ(texture.bytes(), 96);
-  gpu_context().check();
+  context.check();
 }
 
 }  // namespace

@@ -43,11 +43,11 @@ constexpr Function k_functions[] = {
     {"eye_angle.cosine", 1, k_single, 2e-7},  // dot product of unit vectors
     {"alpha_of", 1, k_atan, 4e-7},            // of the two above
     {"alpha_complement", 1, k_atan, 4e-7},
-    {"theta_of", 1, k_atan, 2e-5},         // two dot products over sin α ≥ 0.02
-    {"phi_at", 1, k_atan, 2e-5},           // D − t cos α over a distance to the light ≥ 0.02 D
+    {"theta_of", 1, k_atan, 2e-5},          // two dot products over sin α ≥ 0.02
+    {"phi_at", 1, k_atan, 2e-5},            // D − t cos α over a distance to the light ≥ 0.02 D
     {"distance_from_eye", 1, k_single, 0},  // divided by sin(α + φ) below
-    {"alpha_at", 1, k_atan, 2e-5},         // as phi_at
-    {"light_ray", 3, k_single, 3e-7},      // sums of unit vectors
+    {"alpha_at", 1, k_atan, 2e-5},          // as phi_at
+    {"light_ray", 3, k_single, 3e-7},       // sums of unit vectors
     {"view_ray_of", 3, k_single, 3e-7},
     {"path_length", 1, k_single, 0},
     {"angle_order", 1, k_single, 3e-7},  // 1 − x
@@ -71,7 +71,7 @@ constexpr Function k_functions[] = {
     {"cube_texel_centre", 2, k_single, 1.0 / 256},
     {"view_ray", 3, k_single, 3e-7},
     {"quarter_pixel", 1, k_single, 0},
-    {"eye_relative", 3, k_single, 1e-5},  // a difference of coordinates up to 100
+    {"eye_relative", 3, k_single, 1e-5},       // a difference of coordinates up to 100
     {"ray_triangle_distance", 1, 1e-5, 1e-5},  // of a plane seen at up to 80° from its normal
     {"phi_of_cell", 1, k_single, 0},
     {"cell_of_phi", 1, k_single, 0},
@@ -89,7 +89,9 @@ std::vector<Inputs> random_inputs(int count) {
     const double D = random.logarithmic(0.5, 5);
     const double t = D * random.logarithmic(0.05, 20);
     const glm::dvec3 any = random.logarithmic(0.01, 100) * random.direction();
-    all.push_back({.a = glm::vec4(l, D), .b = glm::vec4(ray, t), .c = glm::vec4(alpha, theta, phi, complement),
+    all.push_back({.a = glm::vec4(l, D),
+                   .b = glm::vec4(ray, t),
+                   .c = glm::vec4(alpha, theta, phi, complement),
                    .d = glm::vec4(any, random.uniform(-0.7, 0.7))});
   }
   return all;
@@ -132,7 +134,8 @@ TEST(EveryFunction, OnTheGpuEqualsTheSameOnTheCpu) {
     RecordProperty(function.name, std::to_string(worst));
   }
   EXPECT_LE(at, shaders::k_outputs);
-  for (; at < shaders::k_outputs; ++at) EXPECT_EQ(cpu_outputs[0].values[at], 0.0f) << "a value that is not compared";
+  for (; at < shaders::k_outputs; ++at)
+    EXPECT_EQ(cpu_outputs[0].values[at], 0.0f) << "a value that is not compared";
 }
 
 }  // namespace

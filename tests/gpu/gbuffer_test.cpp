@@ -40,11 +40,13 @@ TEST_P(GBufferOf, HoldsTheDistancesOfRaysThroughItsPixels) {
   const scene::View view = view_of(scene, {160, 120});
   const std::size_t differing = differing_pixels(scene.geometry, view);
   RecordProperty("differing", static_cast<int>(differing));
-  // Rasterisation snaps corners to 1/256 pixel: a pixel centre that near to a silhouette may fall on its other side.
+  // Rasterisation snaps corners to 1/256 pixel: a pixel centre that near to a silhouette may fall on its
+  // other side.
   EXPECT_LE(differing, 160u * 120u / 500u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, GBufferOf, testing::Values("cornell", "window", "sphere", "half-space", "empty"));
+INSTANTIATE_TEST_SUITE_P(Scenes, GBufferOf,
+                         testing::Values("cornell", "window", "sphere", "half-space", "empty"));
 
 TEST(GBuffer, SeesTrianglesThatReachBehindTheEye) {
   scene::Geometry floor;
@@ -81,8 +83,8 @@ TEST(GBuffer, ImagesNeedNotFillWorkGroups) {
 TEST(GBuffer, AnImageOverTheDriversLimitIsAnErrorThatNamesIt) {
   const scene::Scene& scene = builtin("empty");
   try {
-    look_into_frame(scene.geometry, view_of(scene, {tests::gpu_context().limits().max_texture_size + 1, 1}), 16,
-                    [](const FrameInputs&) {});
+    look_into_frame(scene.geometry, view_of(scene, {tests::gpu_context().limits().max_texture_size + 1, 1}),
+                    16, [](const FrameInputs&) {});
     FAIL();
   } catch (const scene::Error& error) {
     EXPECT_EQ(error.exit_code, scene::ExitCode::driver);

@@ -40,8 +40,9 @@ TEST(Grid, OverTheDriversLimitIsAnErrorThatNamesIt) {
 }
 
 TEST(Grid, RefusesCountsThatCannotBe) {
-  for (const Resolution& bad : {Resolution{0, 8, 128}, Resolution{8, 0, 128}, Resolution{8, 8, 0}, Resolution{8, 8, 100},
-                                Resolution{8, 8, 192}, Resolution{-1, 8, 128}, Resolution{8, 1 << 21, 128}}) {
+  for (const Resolution& bad :
+       {Resolution{0, 8, 128}, Resolution{8, 0, 128}, Resolution{8, 8, 0}, Resolution{8, 8, 100},
+        Resolution{8, 8, 192}, Resolution{-1, 8, 128}, Resolution{8, 1 << 21, 128}}) {
     try {
       validate(bad);
       ADD_FAILURE() << bad.alpha << "x" << bad.theta << "x" << bad.phi;
@@ -58,14 +59,16 @@ constexpr float k_growth = 1.5f;
 class BitsOf {
  public:
   BitsOf(const scene::Scene& scene, const scene::View& view, const Resolution& n, int shadow_map_size)
-      : n_(n), axes_(make_axes(glm::normalize(view.light.position - view.camera.eye))),
+      : n_(n),
+        axes_(make_axes(glm::normalize(view.light.position - view.camera.eye))),
         D_(glm::distance(view.light.position, view.camera.eye)),
         exact_(scene.geometry, view.light.position, view.camera.eye) {
     tests::look_into_frame(scene.geometry, view, shadow_map_size, [&](const frame::FrameInputs& inputs) {
       const ShadowVolume volume(inputs.context, n, Scan::fused);
       tests::build(volume, inputs, k_growth);
       bits_ = volume.grid().bits().read<std::uint32_t>();
-      phi_max_ = static_cast<double>(shaders::angle_from_order(volume.grid().phi_range().read<float>().at(0)));
+      phi_max_ =
+          static_cast<double>(shaders::angle_from_order(volume.grid().phi_range().read<float>().at(0)));
     });
     alpha_ = alpha_range(scene::camera_frame(view.camera, view.size), axes_.axis);
   }
@@ -78,20 +81,25 @@ class BitsOf {
   }
 
   bool bit(int i, int j, int k) const {
-    const auto word = (static_cast<std::size_t>(j) * static_cast<std::size_t>(n_.alpha) + static_cast<std::size_t>(i)) *
-                          static_cast<std::size_t>(n_.phi / 32) + static_cast<std::size_t>(k / 32);
+    const auto word =
+        (static_cast<std::size_t>(j) * static_cast<std::size_t>(n_.alpha) + static_cast<std::size_t>(i)) *
+            static_cast<std::size_t>(n_.phi / 32) +
+        static_cast<std::size_t>(k / 32);
     return (bits_[word] >> (k % 32) & 1u) != 0;
   }
 
   /// Whether the light sees the point (α, θ, φ), which may be infinitely far.
   bool is_shadowed(double alpha, double theta, double phi) const {
-    const glm::dvec3 direction = std::sin(phi) * (std::cos(theta) * axes_.u + std::sin(theta) * axes_.f) - std::cos(phi) * axes_.axis;
+    const glm::dvec3 direction =
+        std::sin(phi) * (std::cos(theta) * axes_.u + std::sin(theta) * axes_.f) - std::cos(phi) * axes_.axis;
     const double sine = std::sin(alpha + phi);
     LightRays rays{};
     rays.direction_x[0] = static_cast<float>(direction.x);
     rays.direction_y[0] = static_cast<float>(direction.y);
     rays.direction_z[0] = static_cast<float>(direction.z);
-    rays.length[0] = sine > 1e-6 && alpha + phi < std::numbers::pi ? static_cast<float>(D_ * std::sin(alpha) / sine) : 1e9f;
+    rays.length[0] = sine > 1e-6 && alpha + phi < std::numbers::pi
+                         ? static_cast<float>(D_ * std::sin(alpha) / sine)
+                         : 1e9f;
     return (exact_.lit(rays, 1, reference::RayMode::single) & 1u) == 0;
   }
 
@@ -116,22 +124,25 @@ TEST_P(GridBits, SayWhetherTheirVoxelsCentreIsInShadow) {
   int wrong = 0, far_from_boundaries = 0;
   const int samples = 50000;
   for (int sample = 0; sample < samples; ++sample) {
-    const int i = static_cast<int>(random.uniform(0, n.alpha)), j = static_cast<int>(random.uniform(0, n.theta));
+    const int i = static_cast<int>(random.uniform(0, n.alpha)),
+              j = static_cast<int>(random.uniform(0, n.theta));
     const int k = static_cast<int>(random.uniform(0, n.phi));
     const double alpha = grid.alpha(i), theta = grid.theta(j), phi = grid.phi(k);
     const bool bit = grid.bit(i, j, k);
     if (bit == grid.is_shadowed(alpha, theta, phi)) continue;
     ++wrong;
-    // The shadow map answers for the centre of a texel, whose diagonal is up to 2√2/N of an angle away, and single precision
-    // rounds occluders to a cell of α.
+    // The shadow map answers for the centre of a texel, whose diagonal is up to 2√2/N of an angle away, and
+    // single precision rounds occluders to a cell of α.
     const double reach = 2 * std::sqrt(2.0) / texels, step = grid.alpha(1) - grid.alpha(0);
     bool is_near_boundary = false;
     for (int direction = 0; direction < 24 && !is_near_boundary; ++direction) {
       const double turn = direction * std::numbers::pi / 4, radius = reach * (1 + direction / 8) / 3;
       for (double along : {-1.5 * step, 0.0, 1.5 * step}) {
-        is_near_boundary = is_near_boundary || bit == grid.is_shadowed(std::max(alpha + along, 1e-4),
-                                                                       theta + radius * std::sin(turn) / std::max(std::sin(phi), 1e-2),
-                                                                       std::max(phi + radius * std::cos(turn), 1e-4));
+        is_near_boundary =
+            is_near_boundary ||
+            bit == grid.is_shadowed(std::max(alpha + along, 1e-4),
+                                    theta + radius * std::sin(turn) / std::max(std::sin(phi), 1e-2),
+                                    std::max(phi + radius * std::cos(turn), 1e-4));
       }
     }
     far_from_boundaries += is_near_boundary ? 0 : 1;

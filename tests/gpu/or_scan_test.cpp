@@ -16,7 +16,8 @@ TEST_P(OrScanOf, RandomBitsEqualsTheScanOnTheCpu) {
   const Grid grid(context, n);
   tests::Random random(1);
   std::vector<std::uint32_t> bits(static_cast<std::size_t>(grid.bits().bytes()) / 4);
-  for (std::uint32_t& word : bits) word = random.bits() & random.bits() & random.bits() & random.bits() & random.bits();
+  for (std::uint32_t& word : bits)
+    word = random.bits() & random.bits() & random.bits() & random.bits() & random.bits();
   grid.bits().write(bits.data(), grid.bits().bytes());
   grid.bind();
   OrScan(n).run(grid);
@@ -33,8 +34,8 @@ TEST_P(OrScanOf, RandomBitsEqualsTheScanOnTheCpu) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Resolutions, OrScanOf,
-                         testing::Values(Resolution{1, 1, 128}, Resolution{64, 64, 128}, Resolution{33, 17, 640},
-                                         Resolution{257, 129, 512}));
+                         testing::Values(Resolution{1, 1, 128}, Resolution{64, 64, 128},
+                                         Resolution{33, 17, 640}, Resolution{257, 129, 512}));
 
 }  // namespace
 }  // namespace airlight::epipolar

@@ -19,7 +19,8 @@ using tests::builtin;
 using tests::look_into_frame;
 using tests::view_of;
 
-std::vector<std::uint32_t> bits_of(const frame::FrameInputs& inputs, const Resolution& resolution, Scan scan) {
+std::vector<std::uint32_t> bits_of(const frame::FrameInputs& inputs, const Resolution& resolution,
+                                   Scan scan) {
   const ShadowVolume volume(inputs.context, resolution, scan);
   tests::build(volume, inputs, 2.5f);
   return volume.grid().bits().read<std::uint32_t>();
@@ -90,40 +91,63 @@ TEST(Populate, BuildingTwiceGivesTheSameBits) {
   });
 }
 
+/// φ_max of a view in double precision, from the distances that the frame holds.
+double largest_phi(const scene::View& view, const std::vector<float>& distance) {
+  const glm::ivec2 size = view.size;
+  const scene::CameraFrame camera = scene::camera_frame(view.camera, size);
+  const glm::dvec3 to_light = view.light.position - camera.eye;
+  const double D = glm::length(to_light), quarter = 0.5 * camera.half_height / size.y;
+  double largest = 0.0;
+  for (int y = 0; y < size.y; ++y) {
+    for (int x = 0; x < size.x; ++x) {
+      const glm::dvec3 ray =
+          glm::normalize(camera.forward + (2 * (x + 0.5) / size.x - 1) * camera.half_width * camera.right +
+                         (1 - 2 * (y + 0.5) / size.y) * camera.half_height * camera.up);
+      const double sine = std::max(glm::length(glm::cross(to_light, ray)) / D, quarter);
+      const double cosine = glm::dot(to_light, ray) / D;
+      const auto t = static_cast<double>(distance[static_cast<std::size_t>(y * size.x + x)]);
+      largest = std::max(largest, t > 0 ? std::atan2(t * sine, D - t * cosine) : std::atan2(sine, -cosine));
+    }
+  }
+  return largest;
+}
+
+void expect_largest_phi(const scene::Geometry& geometry, const scene::View& view) {
+  look_into_frame(geometry, view, 16, [&](const frame::FrameInputs& inputs) {
+    const ShadowVolume volume(inputs.context, {8, 8, 128}, Scan::column);
+    volume.find_ranges(inputs);
+    const float order = volume.grid().phi_range().read<float>().at(0);
+    // The order is a single-precision number up to 2.
+    EXPECT_NEAR(static_cast<double>(shaders::angle_from_order(order)),
+                largest_phi(view, tests::distances(inputs)), 1e-6)
+        << view.size.x << "x" << view.size.y;
+  });
+}
+
 class PhiRange : public testing::TestWithParam<const char*> {};
 
 TEST_P(PhiRange, OnTheGpuIsTheLargestOnTheCpu) {
   const scene::Scene& scene = builtin(GetParam());
   for (glm::ivec2 size : {glm::ivec2(64, 64), glm::ivec2(65, 33), glm::ivec2(1, 1), glm::ivec2(1, 40)}) {
-    const scene::View view = view_of(scene, size);
-    look_into_frame(scene.geometry, view, 64, [&](const frame::FrameInputs& inputs) {
-      const ShadowVolume volume(inputs.context, {8, 8, 128}, Scan::fused);
-      tests::build(volume, inputs, 1.0f);
-      const float order = volume.grid().phi_range().read<float>().at(0);
-      const auto on_gpu = static_cast<double>(shaders::angle_from_order(order));
-
-      const std::vector<float> distance = tests::distances(inputs);
-      const scene::CameraFrame camera = scene::camera_frame(view.camera, size);
-      const glm::dvec3 to_light = view.light.position - camera.eye;
-      const double D = glm::length(to_light), quarter = 0.5 * camera.half_height / size.y;
-      double largest = 0.0;
-      for (int y = 0; y < size.y; ++y) {
-        for (int x = 0; x < size.x; ++x) {
-          const glm::dvec3 ray = glm::normalize(camera.forward + (2 * (x + 0.5) / size.x - 1) * camera.half_width * camera.right +
-                                                (1 - 2 * (y + 0.5) / size.y) * camera.half_height * camera.up);
-          const double sine = std::max(glm::length(glm::cross(to_light, ray)) / D, quarter);
-          const double cosine = glm::dot(to_light, ray) / D;
-          const auto t = static_cast<double>(distance[static_cast<std::size_t>(y * size.x + x)]);
-          largest = std::max(largest, t > 0 ? std::atan2(t * sine, D - t * cosine) : std::atan2(sine, -cosine));
-        }
-      }
-      // The order is a single-precision number up to 2.
-      EXPECT_NEAR(on_gpu, largest, 1e-6) << size.x << "x" << size.y;
-    });
+    expect_largest_phi(scene.geometry, view_of(scene, size));
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, PhiRange, testing::Values("cornell", "window", "sphere", "half-space", "empty"));
+TEST_P(PhiRange, IsFoundInWhicheverPixelItIs) {
+  // The ray nearest to the light, or the surface nearest to it, lies anywhere in the image.
+  const scene::Scene& scene = builtin(GetParam());
+  scene::View view = view_of(scene, {70, 70});
+  const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
+  for (int i = 0; i < 35; ++i) {
+    const double x = (2 * ((i * 13) % 35) + 1) / 35.0 - 1, y = (2 * i + 1) / 35.0 - 1;
+    view.light.position = camera.eye + 0.9 * (camera.forward + x * camera.half_width * camera.right +
+                                              y * camera.half_height * camera.up);
+    expect_largest_phi(scene.geometry, view);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, PhiRange,
+                         testing::Values("cornell", "window", "sphere", "half-space", "empty"));
 
 }  // namespace
 }  // namespace airlight::epipolar

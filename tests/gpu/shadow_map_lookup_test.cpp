@@ -41,13 +41,16 @@ TEST_P(ShadowMapLookupOf, IsWrongOnlyWithinATexelOfAnEdge) {
   const scene::Scene& scene = builtin(GetParam());
   const Wrong coarse = compare(scene.geometry, view_of(scene, {128, 128}), 256);
   const Wrong fine = compare(scene.geometry, view_of(scene, {128, 128}), 2048);
-  RecordProperty("coarse", std::to_string(static_cast<double>(coarse.wrong) / static_cast<double>(coarse.pixels)));
+  RecordProperty("coarse",
+                 std::to_string(static_cast<double>(coarse.wrong) / static_cast<double>(coarse.pixels)));
   RecordProperty("fine", std::to_string(static_cast<double>(fine.wrong) / static_cast<double>(fine.pixels)));
   EXPECT_LE(fine.wrong, coarse.wrong);
-  EXPECT_LE(static_cast<double>(fine.wrong), 0.02 * static_cast<double>(fine.pixels)) << "no acne, no missing shadow";
+  EXPECT_LE(static_cast<double>(fine.wrong), 0.02 * static_cast<double>(fine.pixels))
+      << "no acne, no missing shadow";
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, ShadowMapLookupOf, testing::Values("cornell", "window", "sphere", "half-space"));
+INSTANTIATE_TEST_SUITE_P(Scenes, ShadowMapLookupOf,
+                         testing::Values("cornell", "window", "sphere", "half-space"));
 
 TEST(ShadowMapLookup, ALonePlaneIsLitWhollyAtAnySlope) {
   scene::Geometry plane;

@@ -23,7 +23,8 @@ using tests::view_of;
 /// light_near / depth of every texel of the six faces, 0 where there is nothing.
 std::vector<float> read_faces(const ShadowMap& map, int size) {
   std::vector<float> texels(static_cast<std::size_t>(6 * size * size));
-  glGetTextureImage(map.depth().name(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, static_cast<GLsizei>(4 * texels.size()), texels.data());
+  glGetTextureImage(map.depth().name(), 0, GL_DEPTH_COMPONENT, GL_FLOAT,
+                    static_cast<GLsizei>(4 * texels.size()), texels.data());
   return texels;
 }
 
@@ -35,7 +36,8 @@ TEST_P(ShadowMapOf, HoldsTheDistancesOfRaysThroughItsTexels) {
   const int size = 96;
   look_into_frame(scene.geometry, view, size, [&](const FrameInputs& inputs) {
     const std::vector<float> texels = read_faces(*inputs.shadow_map, size);
-    // Distances are stored as light_near / z, and light_near is in the view's block, which the frame keeps bound.
+    // Distances are stored as light_near / z, and light_near is in the view's block, which the frame keeps
+    // bound.
     GLint block = 0;
     glGetIntegeri_v(GL_UNIFORM_BUFFER_BINDING, 0, &block);
     shaders::ViewBlock view_block;
@@ -46,12 +48,14 @@ TEST_P(ShadowMapOf, HoldsTheDistancesOfRaysThroughItsTexels) {
     for (int face = 0; face < 6; ++face) {
       for (int y = 0; y < size; ++y) {
         for (int x = 0; x < size; ++x, ++at) {
-          const glm::dvec3 along(shaders::cube_direction(face, shaders::cube_texel_centre({x, y}, static_cast<float>(size))));
+          const glm::dvec3 along(
+              shaders::cube_direction(face, shaders::cube_texel_centre({x, y}, static_cast<float>(size))));
           const double expected = exact.first_hit(glm::normalize(along)).distance;
           const double z = texels[at] > 0 ? static_cast<double>(view_block.light_near / texels[at]) : 0.0;
           const double distance = z * glm::length(along);
           hits += expected > 0;
-          // Depth is interpolated in single precision, the more coarsely the farther a triangle reaches beside the light.
+          // Depth is interpolated in single precision, the more coarsely the farther a triangle reaches
+          // beside the light.
           const bool same = std::abs(distance - expected) <= 2e-4 * expected;
           wrong += same ? 0 : 1;
         }

@@ -9,8 +9,8 @@
 #include "support/scenes.h"
 #include "unit/reference/fixtures.h"
 
-/// Scenes whose airlight is known without a renderer: the integral over the distance along each view ray, between the ends of
-/// its lit part, by a quadrature that knows nothing of epipolar space.
+/// Scenes whose airlight is known without a renderer: the integral over the distance along each view ray,
+/// between the ends of its lit part, by a quadrature that knows nothing of epipolar space.
 namespace airlight {
 namespace {
 
@@ -25,12 +25,14 @@ struct Lit {
   double from, to;
 };
 
-/// The airlight of a ray that is lit over these intervals of distance, but for a ray within a quarter pixel of the light.
+/// The airlight of a ray that is lit over these intervals of distance, but for a ray within a quarter pixel
+/// of the light.
 double airlight(const scene::View& view, glm::dvec3 ray, const std::vector<Lit>& lit) {
   const glm::dvec3 to_light = view.light.position - view.camera.eye;
   const double alpha = std::atan2(glm::length(glm::cross(to_light, ray)), glm::dot(to_light, ray));
   double sum = 0.0;
-  for (const Lit& part : lit) sum += reference::tests::airlight_over_distance(view, alpha, part.from, part.to).x;
+  for (const Lit& part : lit)
+    sum += reference::tests::airlight_over_distance(view, alpha, part.from, part.to).x;
   return sum;
 }
 
@@ -58,7 +60,9 @@ TEST_P(ClosedForm, EmptyFogGlowsAroundTheLamp) {
     scene::View view = tests::view_of(tests::builtin("empty"), {16, 16});
     view.medium.phase = phase;
     view.medium.g = 0.6f;
-    const auto expected = expected_image(view, [](glm::dvec3, glm::dvec3) { return std::vector<Lit>{{0, k_infinity}}; });
+    const auto expected = expected_image(view, [](glm::dvec3, glm::dvec3) {
+      return std::vector<Lit>{{0, k_infinity}};
+    });
     const auto error = tests::error_of(tests::render_vsv({}, view, settings()).airlight, expected);
     // Quadrature by two points a cell, and interpolation between 256 rows of the table.
     EXPECT_LT(error.max, 1e-3);
@@ -77,7 +81,8 @@ TEST_P(ClosedForm, AHalfPlaneCutsTheLightAtItsEdgesPlane) {
     return std::vector<Lit>{{0, height_at_edge < 0 ? edge : k_infinity}};
   });
   const auto error = tests::error_of(tests::render_vsv(scene.geometry, view, settings()).airlight, expected);
-  // A shadow's edge is misplaced by up to half a cell of φ (φ_max/512) or of α, and the shadow map's by half a texel.
+  // A shadow's edge is misplaced by up to half a cell of φ (φ_max/512) or of α, and the shadow map's by half
+  // a texel.
   EXPECT_LT(error.rrmse, 1e-2);
   EXPECT_LT(error.p99, 1.5e-2);
   EXPECT_LT(std::abs(error.bias), 2e-3);
@@ -128,8 +133,11 @@ TEST_P(ClosedForm, ASphereCastsACone) {
   RecordProperty("rrmse", std::to_string(error.rrmse));
 }
 
-INSTANTIATE_TEST_SUITE_P(Integrals, ClosedForm, testing::Values(media::VsvIntegral::table, media::VsvIntegral::riemann),
-                         [](const auto& test) { return test.param == media::VsvIntegral::table ? "table" : "riemann"; });
+INSTANTIATE_TEST_SUITE_P(Integrals, ClosedForm,
+                         testing::Values(media::VsvIntegral::table, media::VsvIntegral::riemann),
+                         [](const auto& test) {
+                           return test.param == media::VsvIntegral::table ? "table" : "riemann";
+                         });
 
 TEST(EmptyFog, EqualsTheReferenceInEveryChannelWithLightInFrontAndBehind) {
   scene::View view;
@@ -138,13 +146,15 @@ TEST(EmptyFog, EqualsTheReferenceInEveryChannelWithLightInFrontAndBehind) {
   view.medium = {.sigma_s = {0.1f, 0.3f, 0.05f}, .sigma_a = {0.02f, 0.0f, 0.4f}};
   view.light.intensity = {3, 2, 1};
   view.size = {48, 48};
-  for (glm::dvec3 light : {glm::dvec3(0.2, 0.1, -3), glm::dvec3(2, 1, 0.3), glm::dvec3(0.3, -0.2, 4), glm::dvec3(-1, 5, -2)}) {
+  for (glm::dvec3 light :
+       {glm::dvec3(0.2, 0.1, -3), glm::dvec3(2, 1, 0.3), glm::dvec3(0.3, -0.2, 4), glm::dvec3(-1, 5, -2)}) {
     view.light.position = light;
     const auto exact = reference::Reference({}, view).converged(16);
     const auto image = tests::render_vsv({}, view).airlight;
     for (std::size_t i = 0; i < image.size(); ++i) {
       for (int channel = 0; channel < 3; ++channel) {
-        EXPECT_NEAR(image[i][channel] / exact.radiance[i][channel], 1.0f, 2e-3f) << "light " << light.x << " " << light.y << " " << light.z << " pixel " << i;
+        EXPECT_NEAR(image[i][channel] / exact.radiance[i][channel], 1.0f, 2e-3f)
+            << "light " << light.x << " " << light.y << " " << light.z << " pixel " << i;
       }
     }
     EXPECT_LT(std::abs(tests::error_of(image, exact.radiance).bias), 1e-3);

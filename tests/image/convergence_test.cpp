@@ -8,7 +8,8 @@
 #include "support/render.h"
 #include "support/scenes.h"
 
-/// The error against the converged reference falls as the grid grows along each angle, the others held at their defaults.
+/// The error against the converged reference falls as the grid grows along each angle, the others held at
+/// their defaults.
 namespace airlight {
 namespace {
 
@@ -20,7 +21,9 @@ struct Curve {
   double ratio;  ///< of the error at `last` to that at `first`, at most
 };
 
-void PrintTo(const Curve& curve, std::ostream* stream) { *stream << curve.scene << " " << curve.angle; }
+void PrintTo(const Curve& curve, std::ostream* stream) {
+  *stream << curve.scene << " " << curve.angle;
+}
 
 class Convergence : public testing::TestWithParam<Curve> {
  protected:
@@ -40,7 +43,10 @@ TEST_P(Convergence, ErrorFallsAsTheCountDoubles) {
   for (int count = curve.first; count <= curve.last; count *= 2) {
     tests::VsvSettings settings{.resolution = {512, 2048, 512}, .shadow_map = 2048};
     settings.resolution.*curve.count = count;
-    const double rrmse = tests::error_of(tests::render_vsv(tests::builtin(curve.scene).geometry, view(curve.scene), settings), exact).rrmse;
+    const double rrmse =
+        tests::error_of(tests::render_vsv(tests::builtin(curve.scene).geometry, view(curve.scene), settings),
+                        exact)
+            .rrmse;
     RecordProperty(curve.angle + std::to_string(count), std::to_string(rrmse));
     if (first == 0.0) first = rrmse;
     // Near the floor that the other counts set, an error may rise by chance.
@@ -65,7 +71,9 @@ struct Agreement {
   double rrmse, p99;
 };
 
-void PrintTo(const Agreement& agreement, std::ostream* stream) { *stream << agreement.scene; }
+void PrintTo(const Agreement& agreement, std::ostream* stream) {
+  *stream << agreement.scene;
+}
 
 class Accuracy : public testing::TestWithParam<Agreement> {};
 
@@ -76,26 +84,30 @@ TEST_P(Accuracy, OfBothIntegralsAtTheDefaultResolution) {
   const tests::Truth truth = tests::trace(scene.geometry, view, 1024);
   std::vector<std::vector<glm::vec3>> images;
   for (media::VsvIntegral integral : {media::VsvIntegral::table, media::VsvIntegral::riemann}) {
-    const tests::VsvSettings settings{.resolution = {512, 2048, 512}, .integral = integral, .shadow_map = 2048};
+    const tests::VsvSettings settings{
+        .resolution = {512, 2048, 512}, .integral = integral, .shadow_map = 2048};
     const frame::FrameImages image = tests::render_vsv(scene.geometry, view, settings);
     const auto error = tests::error_of(image, truth);
     const std::string name = integral == media::VsvIntegral::table ? "table" : "riemann";
-    RecordProperty(name, std::to_string(error.rrmse) + ", bias " + std::to_string(error.bias) + ", p99 " + std::to_string(error.p99));
-    // Each change of visibility is misplaced by up to half a cell of φ, of α (rounding of the occluder), or of θ (the
-    // neighbouring half-plane's shadow), and by half a texel of the shadow map.
+    RecordProperty(name, std::to_string(error.rrmse) + ", bias " + std::to_string(error.bias) + ", p99 " +
+                             std::to_string(error.p99));
+    // Each change of visibility is misplaced by up to half a cell of φ, of α (rounding of the occluder), or
+    // of θ (the neighbouring half-plane's shadow), and by half a texel of the shadow map.
     EXPECT_LT(error.rrmse, expected.rrmse) << name;
     EXPECT_LT(error.p99, expected.p99) << name;
     // The roundings go either way.
     EXPECT_LT(std::abs(error.bias), 2e-3) << name;
     images.push_back(image.airlight);
   }
-  // The same bits, summed by cells or taken from the table: where a ray ends within a cell, the sum counts it whole or not.
+  // The same bits, summed by cells or taken from the table: where a ray ends within a cell, the sum counts it
+  // whole or not.
   EXPECT_LT(tests::error_of(images[0], images[1]).rrmse, 4e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Accuracy,
                          testing::Values(Agreement{"window", 0.016, 0.06}, Agreement{"cornell", 0.003, 0.01},
-                                         Agreement{"sphere", 0.003, 0.01}, Agreement{"half-space", 0.002, 0.005}));
+                                         Agreement{"sphere", 0.003, 0.01},
+                                         Agreement{"half-space", 0.002, 0.005}));
 
 }  // namespace
 }  // namespace airlight

@@ -17,7 +17,9 @@ TEST_P(RgbMedium, GivesEachChannelWhatAGreyMediumOfItsOwnWould) {
   view.medium.sigma_a = {0.3f, 0.0f, 0.1f};
   view.light.intensity = {1, 2, 3};
   // Equal cells, so that the bits are the same in all four runs.
-  const tests::VsvSettings settings{.resolution = {128, 256, 256}, .integral = GetParam(), .shadow_map = 512,
+  const tests::VsvSettings settings{.resolution = {128, 256, 256},
+                                    .integral = GetParam(),
+                                    .shadow_map = 512,
                                     .phi_cells = media::PhiCells::equal};
   const frame::FrameImages coloured = tests::render_vsv(scene.geometry, view, settings);
   for (int channel = 0; channel < 3; ++channel) {
@@ -32,14 +34,19 @@ TEST_P(RgbMedium, GivesEachChannelWhatAGreyMediumOfItsOwnWould) {
       EXPECT_EQ(alone.airlight[i].x, alone.airlight[i].y);
       EXPECT_EQ(alone.airlight[i].x, alone.airlight[i].z);
       // A difference of table entries keeps the rounding of the entries.
-      EXPECT_NEAR(static_cast<double>(coloured.airlight[i][channel]), static_cast<double>(alone.airlight[i].x), 1e-6 * largest);
-      EXPECT_NEAR(static_cast<double>(coloured.radiance[i][channel]), static_cast<double>(alone.radiance[i][channel]), 2e-6 * largest);
+      EXPECT_NEAR(static_cast<double>(coloured.airlight[i][channel]),
+                  static_cast<double>(alone.airlight[i].x), 1e-6 * largest);
+      EXPECT_NEAR(static_cast<double>(coloured.radiance[i][channel]),
+                  static_cast<double>(alone.radiance[i][channel]), 2e-6 * largest);
     }
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Integrals, RgbMedium, testing::Values(media::VsvIntegral::table, media::VsvIntegral::riemann),
-                         [](const auto& test) { return test.param == media::VsvIntegral::table ? "table" : "riemann"; });
+INSTANTIATE_TEST_SUITE_P(Integrals, RgbMedium,
+                         testing::Values(media::VsvIntegral::table, media::VsvIntegral::riemann),
+                         [](const auto& test) {
+                           return test.param == media::VsvIntegral::table ? "table" : "riemann";
+                         });
 
 TEST(RgbMediumReference, AgreesInEveryChannel) {
   const scene::Scene& scene = tests::builtin("cornell");

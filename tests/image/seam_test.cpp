@@ -26,13 +26,17 @@ TEST(Seam, AtPlusMinusPiIsAsGoodAsElsewhere) {
   std::vector<int> pixels(bands, 0);
   double mean = 0.0;
   for (std::size_t i = 0; i < images.airlight.size(); ++i) {
-    if (std::abs(images.distance[i] - truth.surfaces.distance[i]) > 1e-3f * truth.surfaces.distance[i]) continue;
+    if (std::abs(images.distance[i] - truth.surfaces.distance[i]) > 1e-3f * truth.surfaces.distance[i])
+      continue;
     const int x = static_cast<int>(i) % view.size.x, y = static_cast<int>(i) / view.size.x;
-    const glm::dvec3 ray = camera.forward + (2 * (x + 0.5) / view.size.x - 1) * camera.half_width * camera.right +
+    const glm::dvec3 ray = camera.forward +
+                           (2 * (x + 0.5) / view.size.x - 1) * camera.half_width * camera.right +
                            (1 - 2 * (y + 0.5) / view.size.y) * camera.half_height * camera.up;
     const auto theta = static_cast<double>(shaders::theta_of(space, glm::vec3(ray)));
-    const auto band = static_cast<std::size_t>(std::lround((theta + std::numbers::pi) / (2 * std::numbers::pi) * bands) % bands);
-    const double difference = static_cast<double>(images.airlight[i].y) - static_cast<double>(truth.airlight.radiance[i].y);
+    const auto band = static_cast<std::size_t>(
+        std::lround((theta + std::numbers::pi) / (2 * std::numbers::pi) * bands) % bands);
+    const double difference =
+        static_cast<double>(images.airlight[i].y) - static_cast<double>(truth.airlight.radiance[i].y);
     squares[band] += difference * difference;
     sums[band] += difference;
     ++pixels[band];

@@ -11,6 +11,7 @@
 #include "quality/metrics.h"
 #include "reference/reference.h"
 #include "support/gpu_context.h"
+#include "surface_shadows/shadow_map_lookup.h"
 
 namespace airlight::tests {
 
@@ -21,23 +22,31 @@ struct VsvSettings {
   int shadow_map = 1024;
   epipolar::Scan scan = epipolar::Scan::column;
   media::PhiCells phi_cells = media::PhiCells::growing;
+  bool surface_shadows = false;  ///< by the shadow map; else every surface is lit
 };
 
-/// Renders with `vsv` and the given surface shadow, none by default.
 inline frame::FrameImages render_vsv(const scene::Geometry& geometry, const scene::View& view,
-                                     const VsvSettings& settings = {}, frame::SurfaceShadow* surface_shadow = nullptr) {
+                                     const VsvSettings& settings = {}) {
   frame::Frame frame(gpu_context(), geometry, settings.shadow_map);
-  frame::NoShadow no_shadow;
   media::Vsv vsv(gpu_context(), settings.resolution, settings.integral, settings.scan, settings.phi_cells);
+  frame::NoShadow no_shadow;
+  surface_shadows::ShadowMapLookup lookup;
   gpu::StageTimer timer(nullptr);
-  frame.render(view, surface_shadow ? *surface_shadow : no_shadow, vsv, timer);
+  if (settings.surface_shadows) {
+    frame.render(view, lookup, vsv, timer);
+  } else {
+    frame.render(view, no_shadow, vsv, timer);
+  }
   return frame.read();
 }
 
-inline std::span<const float> values(const std::vector<glm::vec3>& image) { return {&image.data()->x, 3 * image.size()}; }
+inline std::span<const float> values(const std::vector<glm::vec3>& image) {
+  return {&image.data()->x, 3 * image.size()};
+}
 
 /// See quality::airlight_error, which refuses NaN and infinity.
-inline quality::AirlightError error_of(const std::vector<glm::vec3>& image, const std::vector<glm::vec3>& reference) {
+inline quality::AirlightError error_of(const std::vector<glm::vec3>& image,
+                                       const std::vector<glm::vec3>& reference) {
   return quality::airlight_error(values(image), values(reference));
 }
 
@@ -52,8 +61,9 @@ inline Truth trace(const scene::Geometry& geometry, const scene::View& view, int
   return {.surfaces = reference.surfaces(), .airlight = reference.converged(samples)};
 }
 
-/// The error over the pixels where both see the same surface: rasterisation snaps corners to 1/256 pixel, so that a pixel
-/// centre that near to a silhouette may see past it, or not, and all the airlight behind. Those pixels must be few.
+/// The error over the pixels where both see the same surface: rasterisation snaps corners to 1/256 pixel, so
+/// that a pixel centre that near to a silhouette may see past it, or not, and all the airlight behind. Those
+/// pixels must be few.
 inline quality::AirlightError error_of(const frame::FrameImages& images, const Truth& truth) {
   std::vector<glm::vec3> image, reference;
   for (std::size_t i = 0; i < images.airlight.size(); ++i) {

@@ -14,11 +14,15 @@ namespace {
 using std::numbers::pi;
 using tests::Random;
 
-double angle_between(glm::dvec3 a, glm::dvec3 b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)); }
+double angle_between(glm::dvec3 a, glm::dvec3 b) {
+  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
 
 void expect_orthonormal(glm::dvec3 l) {
   const Axes axes = make_axes(l);
-  const auto near = [&](double value, double expected) { EXPECT_NEAR(value, expected, 1e-10) << l.x << " " << l.y << " " << l.z; };
+  const auto near = [&](double value, double expected) {
+    EXPECT_NEAR(value, expected, 1e-10) << l.x << " " << l.y << " " << l.z;
+  };
   near(glm::length(axes.u), 1);
   near(glm::length(axes.f), 1);
   near(glm::dot(axes.axis, axes.u), 0);
@@ -43,9 +47,9 @@ TEST(MakeAxes, AreOrthonormalAndRightHanded) {
 /// The largest departure from orthonormality of the axes for `l`.
 double departure(glm::dvec3 l) {
   const Axes axes = make_axes(l);
-  return std::max({std::abs(glm::length(axes.u) - 1), std::abs(glm::length(axes.f) - 1), std::abs(glm::dot(axes.axis, axes.u)),
-                   std::abs(glm::dot(axes.axis, axes.f)), std::abs(glm::dot(axes.u, axes.f)),
-                   glm::length(glm::cross(axes.u, axes.f) - axes.axis)});
+  return std::max({std::abs(glm::length(axes.u) - 1), std::abs(glm::length(axes.f) - 1),
+                   std::abs(glm::dot(axes.axis, axes.u)), std::abs(glm::dot(axes.axis, axes.f)),
+                   std::abs(glm::dot(axes.u, axes.f)), glm::length(glm::cross(axes.u, axes.f) - axes.axis)});
 }
 
 TEST(MakeAxes, StayOrthonormalWhereTheLightIsBelow) {
@@ -137,7 +141,8 @@ void expect_range(const scene::CameraFrame& camera, glm::dvec3 axis) {
 TEST(AlphaRange, IsThatOfAScanOfTheImage) {
   Random random(5);
   for (int i = 0; i < 400; ++i) {
-    const glm::ivec2 size(1 + static_cast<int>(random.uniform(0, 200)), 1 + static_cast<int>(random.uniform(0, 200)));
+    const glm::ivec2 size(1 + static_cast<int>(random.uniform(0, 200)),
+                          1 + static_cast<int>(random.uniform(0, 200)));
     expect_range(look(random.direction(), random.uniform(1, 100), size), random.direction());
   }
 }

@@ -21,7 +21,8 @@ scene::Geometry random_triangles(Random& random, int count, double half_side) {
     const glm::dvec3 centre = random.in_box(half_side);
     const double size = half_side * random.logarithmic(1e-3, 1.0);
     const auto first = static_cast<std::uint32_t>(geometry.positions.size());
-    for (int corner = 0; corner < 3; ++corner) geometry.positions.emplace_back(centre + size * random.direction());
+    for (int corner = 0; corner < 3; ++corner)
+      geometry.positions.emplace_back(centre + size * random.direction());
     geometry.triangles.emplace_back(first, first + 1, first + 2);
     geometry.material_of_triangle.push_back(0);
   }
@@ -65,7 +66,8 @@ TEST(Clusters, BoxesHoldTheirTriangles) {
       const glm::uvec3 triangle = geometry.triangles[result.order[cluster.first_triangle + i]];
       for (int corner = 0; corner < 3; ++corner) {
         const glm::vec3 p = geometry.positions[triangle[corner]];
-        EXPECT_TRUE(glm::all(glm::lessThanEqual(cluster.box.lower, p)) && glm::all(glm::lessThanEqual(p, cluster.box.upper)));
+        EXPECT_TRUE(glm::all(glm::lessThanEqual(cluster.box.lower, p)) &&
+                    glm::all(glm::lessThanEqual(p, cluster.box.upper)));
       }
     }
   }
@@ -74,7 +76,8 @@ TEST(Clusters, BoxesHoldTheirTriangles) {
 TEST(Clusters, NeighboursInTheOrderAreNeighboursInSpace) {
   Random random(3);
   scene::Geometry geometry = random_triangles(random, 8192, 10);
-  for (std::size_t i = 0; i < geometry.positions.size(); i += 3) {  // tiny ones, so that boxes show their places
+  for (std::size_t i = 0; i < geometry.positions.size();
+       i += 3) {  // tiny ones, so that boxes show their places
     geometry.positions[i + 1] = geometry.positions[i] + glm::vec3(1e-3f, 0, 0);
     geometry.positions[i + 2] = geometry.positions[i] + glm::vec3(0, 1e-3f, 0);
   }
@@ -83,7 +86,8 @@ TEST(Clusters, NeighboursInTheOrderAreNeighboursInSpace) {
     const glm::dvec3 size(cluster.box.upper - cluster.box.lower);
     volume += size.x * size.y * size.z;
   }
-  EXPECT_LT(volume, 3 * std::pow(40.0, 3)) << "in any order, each of 64 boxes would be almost as large as the whole";
+  EXPECT_LT(volume, 3 * std::pow(40.0, 3))
+      << "in any order, each of 64 boxes would be almost as large as the whole";
 }
 
 TEST(Clusters, ManyTrianglesInOnePlaceAndFlatScenesWork) {
@@ -91,15 +95,20 @@ TEST(Clusters, ManyTrianglesInOnePlaceAndFlatScenesWork) {
   scene::Geometry geometry = random_triangles(random, 300, 1);
   for (glm::vec3& position : geometry.positions) position.y = 3.0f;
   EXPECT_EQ(make_clusters(geometry).order.size(), 300u);
-  for (std::size_t i = 0; i < geometry.positions.size(); ++i) geometry.positions[i] = geometry.positions[i % 3];
+  for (std::size_t i = 0; i < geometry.positions.size(); ++i)
+    geometry.positions[i] = geometry.positions[i % 3];
   EXPECT_EQ(make_clusters(geometry).order.size(), 300u);
 }
 
 Pyramid random_pyramid(Random& random) {
   const glm::dvec3 forward = random.direction();
   const glm::dvec3 right = glm::normalize(glm::cross(forward, random.direction()));
-  return {.apex = random.in_box(12), .right = right, .up = glm::cross(right, forward), .forward = forward,
-          .half_width = random.logarithmic(0.01, 3), .half_height = random.logarithmic(0.01, 3)};
+  return {.apex = random.in_box(12),
+          .right = right,
+          .up = glm::cross(right, forward),
+          .forward = forward,
+          .half_width = random.logarithmic(0.01, 3),
+          .half_height = random.logarithmic(0.01, 3)};
 }
 
 bool contains(const Pyramid& pyramid, glm::dvec3 point) {
@@ -117,7 +126,8 @@ TEST(MayTouch, NeverSaysNoToATriangleThatIsPartlyInside) {
     const Pyramid pyramid = random_pyramid(random);
     for (std::uint32_t triangle = 0; triangle < 40; ++triangle) {
       scene::Box box;
-      for (int corner = 0; corner < 3; ++corner) box.include(geometry.positions[geometry.triangles[triangle][corner]]);
+      for (int corner = 0; corner < 3; ++corner)
+        box.include(geometry.positions[geometry.triangles[triangle][corner]]);
       const bool may = may_touch(pyramid, box);
       refused += may ? 0 : 1;
       for (int sample = 0; sample < 50; ++sample) {
@@ -133,7 +143,12 @@ TEST(MayTouch, NeverSaysNoToATriangleThatIsPartlyInside) {
 }
 
 TEST(MayTouch, AnswersTheEasyCases) {
-  const Pyramid pyramid{.apex = {0, 0, 0}, .right = {1, 0, 0}, .up = {0, 1, 0}, .forward = {0, 0, -1}, .half_width = 1, .half_height = 1};
+  const Pyramid pyramid{.apex = {0, 0, 0},
+                        .right = {1, 0, 0},
+                        .up = {0, 1, 0},
+                        .forward = {0, 0, -1},
+                        .half_width = 1,
+                        .half_height = 1};
   EXPECT_TRUE(may_touch(pyramid, {{-1, -1, -5}, {1, 1, -4}}));
   EXPECT_TRUE(may_touch(pyramid, {{-1, -1, -1}, {1, 1, 1}})) << "around the apex";
   EXPECT_TRUE(may_touch(pyramid, {{4.9f, 0, -5}, {6, 1, -4}}));
@@ -157,7 +172,8 @@ TEST(DistanceToGeometry, EqualsThatToTheNearestOfAllPoints) {
         double best_u = u, best_v = v;
         for (int a = -2; a <= 2; ++a) {
           for (int b = -2; b <= 2; ++b) {
-            const double x = std::clamp(u + a * 0.5 * reach, 0.0, 1.0), y = std::clamp(v + b * 0.5 * reach, 0.0, 1.0 - x);
+            const double x = std::clamp(u + a * 0.5 * reach, 0.0, 1.0),
+                         y = std::clamp(v + b * 0.5 * reach, 0.0, 1.0 - x);
             const double d = glm::length(point_of(geometry, triangle, x, y) - point);
             if (d < best) best = d, best_u = x, best_v = y;
           }
@@ -176,7 +192,9 @@ TEST(DistanceToGeometry, IsZeroOnASurfaceAndInfiniteWithoutOne) {
   const scene::Geometry geometry = random_triangles(random, 300, 10);
   const Clusters clusters = make_clusters(geometry);
   for (std::uint32_t triangle = 0; triangle < 300; ++triangle) {
-    EXPECT_LT(distance_to_geometry(geometry, clusters, point_of(geometry, triangle, random.uniform(), random.uniform())), 1e-9);
+    EXPECT_LT(distance_to_geometry(geometry, clusters,
+                                   point_of(geometry, triangle, random.uniform(), random.uniform())),
+              1e-9);
   }
   EXPECT_EQ(distance_to_geometry({}, make_clusters({}), {1, 2, 3}), std::numeric_limits<double>::infinity());
 }

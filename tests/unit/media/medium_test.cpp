@@ -7,7 +7,10 @@ namespace {
 
 TEST(MediumBlock, ExtinctionIsScatteringPlusAbsorption) {
   scene::View view;
-  view.medium = {.sigma_s = {0.1f, 0.2f, 0.3f}, .sigma_a = {0.5f, 0.0f, 0.25f}, .phase = scene::PhaseFunction::henyey_greenstein, .g = 0.4f};
+  view.medium = {.sigma_s = {0.1f, 0.2f, 0.3f},
+                 .sigma_a = {0.5f, 0.0f, 0.25f},
+                 .phase = scene::PhaseFunction::henyey_greenstein,
+                 .g = 0.4f};
   view.light.intensity = {7, 8, 9};
   const shaders::MediumBlock block = medium_block(view);
   EXPECT_EQ(block.sigma_s, view.medium.sigma_s);

@@ -30,7 +30,8 @@ TEST_P(ThetaCell, WrapsAtPi) {
   EXPECT_EQ(theta_cell(std::nextafter(k_pi, 4.0f), count), count - 1);
   EXPECT_EQ(theta_cell(std::nextafter(-k_pi, -4.0f), count), 0u);
   // The first and the last centre are one step apart across the seam.
-  EXPECT_NEAR(theta_centre(0, count) + 2.0f * k_pi - theta_centre(count - 1, count), theta_step(count), 1e-6f);
+  EXPECT_NEAR(theta_centre(0, count) + 2.0f * k_pi - theta_centre(count - 1, count), theta_step(count),
+              1e-6f);
 }
 
 TEST_P(ThetaCell, HoldsWhatIsNearerToItsCentreThanToOthers) {
@@ -68,8 +69,8 @@ TEST(AlphaCell, IsTheNearestOutsideTheRange) {
 TEST(FirstShadowedCell, StartsAtTheNearestBoundary) {
   const EpipolarBlock space = make_range(1.0f, 2.0f, 10);
   const auto at = [&](float cells) { return first_shadowed_cell(space, 1.0f + 0.1f * cells, 10); };
-  // An occluder within half a cell of boundary i makes cell i the first whose centre is dark: its centre, at i + ½, is not
-  // before the occluder, and that of cell i − 1 is.
+  // An occluder within half a cell of boundary i makes cell i the first whose centre is dark: its centre, at
+  // i + ½, is not before the occluder, and that of cell i − 1 is.
   EXPECT_EQ(at(0.0f), 0u);
   EXPECT_EQ(at(0.4f), 0u);
   EXPECT_EQ(at(0.6f), 1u);
@@ -109,9 +110,11 @@ TEST(PhiCells, CoverTheRangeAndGrowFromTheFirstToTheLast) {
     const PhiCells cells{2.0f, growth, 256.0f};
     EXPECT_EQ(phi_of_cell(cells, 0.0f), 0.0f);
     EXPECT_FLOAT_EQ(phi_of_cell(cells, 256.0f), 2.0f);
-    const float first = phi_of_cell(cells, 1.0f), last = phi_of_cell(cells, 256.0f) - phi_of_cell(cells, 255.0f);
+    const float first = phi_of_cell(cells, 1.0f),
+                last = phi_of_cell(cells, 256.0f) - phi_of_cell(cells, 255.0f);
     EXPECT_NEAR(last / first, 1.0f + 2.0f * growth, 0.05f * (1.0f + growth)) << "1 + 2c, to a cell's width";
-    for (float k = 0.0f; k < 256.0f; k += 1.0f) EXPECT_GT(phi_of_cell(cells, k + 1.0f), phi_of_cell(cells, k));
+    for (float k = 0.0f; k < 256.0f; k += 1.0f)
+      EXPECT_GT(phi_of_cell(cells, k + 1.0f), phi_of_cell(cells, k));
   }
 }
 
@@ -123,7 +126,8 @@ TEST(PhiCells, WithoutGrowthAreEqual) {
 TEST(PhiCells, AreFoundAgainByTheirPhi) {
   tests::Random random(12);
   for (int i = 0; i < 20000; ++i) {
-    const PhiCells cells{static_cast<float>(random.uniform(1e-3, 3.14)), static_cast<float>(random.uniform(0, 4)), 512.0f};
+    const PhiCells cells{static_cast<float>(random.uniform(1e-3, 3.14)),
+                         static_cast<float>(random.uniform(0, 4)), 512.0f};
     const auto cell = static_cast<float>(random.uniform(0, 512));
     EXPECT_NEAR(cell_of_phi(cells, phi_of_cell(cells, cell)), cell, 3e-6f * cell + 1e-30f);
   }

@@ -14,10 +14,12 @@ namespace {
 
 using std::numbers::pi;
 
-double exact(float value) { return static_cast<double>(value); }
+double exact(float value) {
+  return static_cast<double>(value);
+}
 
-/// ∫ f over [−1, 1] by Gauss–Legendre's two-point rule on cells that shrink towards both ends, where the lobes of
-/// Henyey-Greenstein are.
+/// ∫ f over [−1, 1] by Gauss–Legendre's two-point rule on cells that shrink towards both ends, where the
+/// lobes of Henyey-Greenstein are.
 template <class Function>
 double over_cosines(const Function& f) {
   double sum = 0.0;
@@ -38,24 +40,27 @@ struct Phase {
   double mean_cosine;
 };
 
-void PrintTo(const Phase& phase, std::ostream* stream) { *stream << phase.name << " " << phase.g; }
+void PrintTo(const Phase& phase, std::ostream* stream) {
+  *stream << phase.name << " " << phase.g;
+}
 
 class PhaseFunction : public testing::TestWithParam<Phase> {};
 
 TEST_P(PhaseFunction, IntegratesToOneOverTheSphere) {
   const Phase& phase = GetParam();
   const double sum = 2 * pi * over_cosines([&](double cosine) {
-    return exact(phase_function(phase.kind, phase.g, static_cast<float>(cosine)));
-  });
+                       return exact(phase_function(phase.kind, phase.g, static_cast<float>(cosine)));
+                     });
   // 1 + g² − 2g cos θ has lost (1 − g)² of its digits at the tip of the lobe.
   EXPECT_NEAR(sum, 1.0, 2e-7 / std::pow(1.0 - std::abs(exact(phase.g)), 1.5));
 }
 
 TEST_P(PhaseFunction, HasTheMeanCosineG) {
   const Phase& phase = GetParam();
-  const double mean = 2 * pi * over_cosines([&](double cosine) {
-    return cosine * exact(phase_function(phase.kind, phase.g, static_cast<float>(cosine)));
-  });
+  const double mean =
+      2 * pi * over_cosines([&](double cosine) {
+        return cosine * exact(phase_function(phase.kind, phase.g, static_cast<float>(cosine)));
+      });
   EXPECT_NEAR(mean, phase.mean_cosine, 2e-7 / std::pow(1.0 - std::abs(exact(phase.g)), 1.5));
 }
 
@@ -81,8 +86,10 @@ TEST(PhaseValues, AreThoseOfTheBooks) {
   EXPECT_FLOAT_EQ(phase_function(k_rayleigh, 0.0f, 1.0f), static_cast<float>(3 / (8 * pi)));
   EXPECT_FLOAT_EQ(phase_function(k_rayleigh, 0.0f, 0.0f), static_cast<float>(3 / (16 * pi)));
   EXPECT_FLOAT_EQ(phase_function(k_henyey_greenstein, 0.0f, 0.7f), static_cast<float>(1 / (4 * pi)));
-  EXPECT_FLOAT_EQ(phase_function(k_henyey_greenstein, 0.5f, 1.0f), static_cast<float>(0.75 / (4 * pi * 0.125)));
-  EXPECT_FLOAT_EQ(phase_function(k_henyey_greenstein, 0.5f, -1.0f), static_cast<float>(0.75 / (4 * pi * 3.375)));
+  EXPECT_FLOAT_EQ(phase_function(k_henyey_greenstein, 0.5f, 1.0f),
+                  static_cast<float>(0.75 / (4 * pi * 0.125)));
+  EXPECT_FLOAT_EQ(phase_function(k_henyey_greenstein, 0.5f, -1.0f),
+                  static_cast<float>(0.75 / (4 * pi * 3.375)));
 }
 
 double phase_in_double(uint kind, double g, double cosine) {
@@ -111,18 +118,20 @@ TEST(AirlightIntegrand, EqualsTheDoublePrecisionOne) {
     EpipolarBlock space{};
     space.distance = static_cast<float>(random.logarithmic(0.1, 100));
     const uint kind = random.bits() % 3;
-    const MediumBlock medium = make_medium(glm::vec3(random.logarithmic(1e-4, 0.1), 0.01, 0.0), static_cast<float>(random.uniform(-0.8, 0.8)));
+    const MediumBlock medium = make_medium(glm::vec3(random.logarithmic(1e-4, 0.1), 0.01, 0.0),
+                                           static_cast<float>(random.uniform(-0.8, 0.8)));
     const auto complement = static_cast<float>(random.uniform(1e-3, 3.14));
     const auto phi = complement * static_cast<float>(random.uniform(0.0, 0.99));
     const glm::vec3 value = airlight_integrand(space, medium, kind, complement, phi);
     for (int channel = 0; channel < 3; ++channel) {
       const double sigma = exact(medium.sigma_t[channel]);
-      const double expected =
-          integrand_in_double(exact(space.distance), sigma, kind, exact(medium.g), exact(complement), exact(phi));
+      const double expected = integrand_in_double(exact(space.distance), sigma, kind, exact(medium.g),
+                                                  exact(complement), exact(phi));
       if (expected < 1e-30) continue;
       const double depth = -std::log(expected * 4 * pi);
       // e^{−x} turns a relative error of x into one of x times as much.
-      EXPECT_NEAR(exact(value[channel]) / expected, 1.0, 3e-6 + 1e-6 * std::abs(depth)) << complement << " " << phi;
+      EXPECT_NEAR(exact(value[channel]) / expected, 1.0, 3e-6 + 1e-6 * std::abs(depth))
+          << complement << " " << phi;
     }
   }
 }
@@ -149,26 +158,31 @@ TEST(IntegrateCell, MatchesHighOrderQuadratureOnTheCellsOfAGrid) {
     EpipolarBlock space{};
     space.distance = static_cast<float>(random.logarithmic(0.5, 20));
     const uint kind = random.bits() % 3;
-    const MediumBlock medium = make_medium(glm::vec3(static_cast<float>(random.logarithmic(1e-3, 0.5))), static_cast<float>(random.uniform(-0.7, 0.7)));
+    const MediumBlock medium = make_medium(glm::vec3(static_cast<float>(random.logarithmic(1e-3, 0.5))),
+                                           static_cast<float>(random.uniform(-0.7, 0.7)));
     const double complement = random.uniform(0.5, 3.1);
     const double width = pi / 512;
     const double from = random.uniform(0, 0.9) * complement, to = std::min(from + width, 0.97 * complement);
     if (to <= from) continue;
     const float single_from = static_cast<float>(from), single_to = static_cast<float>(to);
-    const float value = integrate_cell(space, medium, kind, static_cast<float>(complement), single_from, single_to).x;
+    const float value =
+        integrate_cell(space, medium, kind, static_cast<float>(complement), single_from, single_to).x;
     double expected = 0.0;
     const int panels = 64;
     const double h = (exact(single_to) - exact(single_from)) / panels;
     for (int panel = 0; panel < panels; ++panel) {
       const double middle = exact(single_from) + (panel + 0.5) * h, offset = 0.5 * h / std::sqrt(3.0);
       for (double phi : {middle - offset, middle + offset}) {
-        expected += 0.5 * h * integrand_in_double(exact(space.distance), exact(medium.sigma_t.x), kind, exact(medium.g),
-                                                  exact(static_cast<float>(complement)), phi);
+        expected += 0.5 * h *
+                    integrand_in_double(exact(space.distance), exact(medium.sigma_t.x), kind, exact(medium.g),
+                                        exact(static_cast<float>(complement)), phi);
       }
     }
     if (expected < 1e-20) continue;
-    // Relative to the largest cell there is: light that has travelled far changes fast within a cell, but is little of it.
-    EXPECT_NEAR(exact(value), expected, 2e-5 * expected + 1e-6 * width / (4 * pi)) << complement << " " << from;
+    // Relative to the largest cell there is: light that has travelled far changes fast within a cell, but is
+    // little of it.
+    EXPECT_NEAR(exact(value), expected, 2e-5 * expected + 1e-6 * width / (4 * pi))
+        << complement << " " << from;
   }
 }
 
@@ -183,19 +197,23 @@ TEST(IntegrateCell, SumsToTheIntegralOfTheWholeRay) {
     const auto complement = static_cast<float>(random.logarithmic(1e-3, 3.1));
     double sum = 0.0;
     for (int k = 0; k * width < exact(complement); ++k) {
-      const auto from = static_cast<float>(k * width), to = std::min(static_cast<float>((k + 1) * width), complement);
+      const auto from = static_cast<float>(k * width),
+                 to = std::min(static_cast<float>((k + 1) * width), complement);
       sum += exact(integrate_cell(space, medium, kind, complement, from, to).x);
     }
     double expected = 0.0;
     const int panels = 4000;
     for (int panel = 0; panel < panels; ++panel) {
-      const double h = exact(complement) / panels, middle = (panel + 0.5) * h, offset = 0.5 * h / std::sqrt(3.0);
+      const double h = exact(complement) / panels, middle = (panel + 0.5) * h,
+                   offset = 0.5 * h / std::sqrt(3.0);
       for (double phi : {middle - offset, middle + offset}) {
-        expected += 0.5 * h * integrand_in_double(1.0, exact(medium.sigma_t.x), kind, exact(medium.g), exact(complement), phi);
+        expected +=
+            0.5 * h *
+            integrand_in_double(1.0, exact(medium.sigma_t.x), kind, exact(medium.g), exact(complement), phi);
       }
     }
-    // The last cell of an endless ray ends where the path becomes infinite, a singularity that no polynomial follows: it may
-    // err by half a cell.
+    // The last cell of an endless ray ends where the path becomes infinite, a singularity that no polynomial
+    // follows: it may err by half a cell.
     const double cells = exact(complement) / width;
     EXPECT_NEAR(sum / expected, 1.0, 0.5 / (1 + cells)) << complement << " " << medium.sigma_t.x;
   }

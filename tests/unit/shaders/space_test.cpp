@@ -9,7 +9,8 @@
 #include "epipolar/space_math.h"
 #include "support/random.h"
 
-/// shaders/epipolar/space.glsl against the same formulas in double precision, at the same single-precision inputs.
+/// shaders/epipolar/space.glsl against the same formulas in double precision, at the same single-precision
+/// inputs.
 namespace airlight::shaders {
 namespace {
 
@@ -30,7 +31,9 @@ EpipolarBlock make_space(glm::dvec3 axis, double distance) {
   return space;
 }
 
-double exact(float value) { return static_cast<double>(value); }
+double exact(float value) {
+  return static_cast<double>(value);
+}
 
 EyeAngle make_angle(double alpha) {
   return {.sine = static_cast<float>(std::sin(alpha)), .cosine = static_cast<float>(std::cos(alpha))};
@@ -73,7 +76,8 @@ TEST(EyeAngle, KeepsAllDigitsNearTheAxis) {
 }
 
 TEST(EyeAngle, ASlantedAxisCostsTheRoundingOfItsComponents) {
-  // Axis and ray are themselves rounded by 6e-8 in each component, and so is each product: an absolute error of sin α.
+  // Axis and ray are themselves rounded by 6e-8 in each component, and so is each product: an absolute error
+  // of sin α.
   Random random(1);
   for (int i = 0; i < 20000; ++i) {
     const glm::dvec3 axis = random.direction();
@@ -177,7 +181,8 @@ TEST(Phi, KeepsAllDigitsCloseToTheEye) {
     const EyeAngle angle = make_angle(alpha);
     for (double t : {1e-6, 1e-4, 1e-2}) {
       const double expected = std::atan2(t * std::sin(alpha), 1.0 - t * std::cos(alpha));
-      EXPECT_NEAR(exact(phi_at(space, angle, static_cast<float>(t))) / expected, 1.0, k_single) << alpha << " " << t;
+      EXPECT_NEAR(exact(phi_at(space, angle, static_cast<float>(t))) / expected, 1.0, k_single)
+          << alpha << " " << t;
     }
   }
 }
@@ -225,7 +230,8 @@ TEST(AlphaAt, IsTheAngleOfAPointOnALightRay) {
     const double across = exact(r) * exact(sine), along = exact(space.distance) - exact(r) * exact(cosine);
     const double alpha = std::atan2(across, along);
     const double rounding = 1.2e-7 * (exact(r) + exact(space.distance)) / std::hypot(across, along);
-    EXPECT_NEAR(exact(alpha_at(space, sine, cosine, r)), alpha, k_single * alpha + rounding * std::abs(std::sin(alpha)));
+    EXPECT_NEAR(exact(alpha_at(space, sine, cosine, r)), alpha,
+                k_single * alpha + rounding * std::abs(std::sin(alpha)));
   }
 }
 
@@ -256,7 +262,8 @@ TEST(Rays, AreUnitVectors) {
   Random random(7);
   for (int i = 0; i < 10000; ++i) {
     const EpipolarBlock space = make_space(random.direction(), 1.0);
-    const auto theta = static_cast<float>(random.uniform(-3.14, 3.14)), angle = static_cast<float>(random.uniform(0, 3.14));
+    const auto theta = static_cast<float>(random.uniform(-3.14, 3.14)),
+               angle = static_cast<float>(random.uniform(0, 3.14));
     EXPECT_NEAR(glm::length(light_ray(space, theta, angle)), 1.0f, 3e-7f);
     EXPECT_NEAR(glm::length(view_ray_of(space, angle, theta)), 1.0f, 3e-7f);
   }
@@ -283,18 +290,21 @@ TEST(PathLength, EqualsTheSumOfBothDistances) {
   Random random(8);
   for (int i = 0; i < 100000; ++i) {
     const EpipolarBlock space = make_space({0, 0, 1}, random.logarithmic(1e-3, 1e3));
-    const auto complement = static_cast<float>(random.uniform() < 0.5 ? random.logarithmic(1e-6, 3.1)
-                                                                      : k_pi_exactly - random.logarithmic(1e-6, 1.0));
-    const auto phi = static_cast<float>(exact(complement) * (random.uniform() < 0.5 ? random.uniform(0.0, 0.999)
-                                                                                    : random.logarithmic(1e-6, 0.999)));
+    const auto complement =
+        static_cast<float>(random.uniform() < 0.5 ? random.logarithmic(1e-6, 3.1)
+                                                  : k_pi_exactly - random.logarithmic(1e-6, 1.0));
+    const auto phi =
+        static_cast<float>(exact(complement) * (random.uniform() < 0.5 ? random.uniform(0.0, 0.999)
+                                                                       : random.logarithmic(1e-6, 0.999)));
     const double D = exact(space.distance), alpha = k_pi_exactly - exact(complement);
     // The point, from the law of sines, in double.
     const double sine = std::sin(exact(complement) - exact(phi));  // sin(α + φ)
-    if (std::abs(sine) < 1e-9) continue;  // the law of sines is 0/0 there
+    if (std::abs(sine) < 1e-9) continue;                           // the law of sines is 0/0 there
     const double t = D * std::sin(exact(phi)) / sine;
     const glm::dvec2 point(t * std::sin(alpha), t * std::cos(alpha));
     const double path = t + glm::length(point - glm::dvec2(0.0, D));
-    // Behind the light, where α → 0 and φ → π, the rounding of φ itself is seen against sin((π − α + φ)/2) → 0.
+    // Behind the light, where α → 0 and φ → π, the rounding of φ itself is seen against sin((π − α + φ)/2) →
+    // 0.
     const double rounding = 3e-7 / std::sin(0.5 * (exact(complement) + exact(phi)));
     EXPECT_NEAR(exact(path_length(space, complement, phi)) / path, 1.0, k_single + rounding)
         << "complement " << complement << " phi " << phi;

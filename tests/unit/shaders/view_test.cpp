@@ -28,7 +28,8 @@ ViewBlock make_view(const scene::Camera& camera, glm::ivec2 size) {
 }
 
 TEST(ViewRay, GoesThroughTheCentreAndTheCorners) {
-  const ViewBlock view = make_view({.name = {}, .eye = {1, 2, 3}, .target = {4, -1, 2}, .vertical_fov_degrees = 60}, {40, 20});
+  const ViewBlock view =
+      make_view({.name = {}, .eye = {1, 2, 3}, .target = {4, -1, 2}, .vertical_fov_degrees = 60}, {40, 20});
   const glm::vec3 centre = view_ray(view, {20.0f, 10.0f});
   for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(centre[axis], view.forward[axis], 1e-6f);
   const glm::vec3 top_left = view_ray(view, {0.0f, 0.0f});
@@ -36,20 +37,27 @@ TEST(ViewRay, GoesThroughTheCentreAndTheCorners) {
       << "row 0 is at the top";
   EXPECT_NEAR(glm::dot(top_left, view.right) / glm::dot(top_left, view.forward), -view.half_width, 1e-6f);
   const glm::vec3 bottom_right = view_ray(view, {40.0f, 20.0f});
-  EXPECT_NEAR(glm::dot(bottom_right, view.up) / glm::dot(bottom_right, view.forward), -view.half_height, 1e-6f);
-  EXPECT_NEAR(glm::dot(bottom_right, view.right) / glm::dot(bottom_right, view.forward), view.half_width, 1e-6f);
+  EXPECT_NEAR(glm::dot(bottom_right, view.up) / glm::dot(bottom_right, view.forward), -view.half_height,
+              1e-6f);
+  EXPECT_NEAR(glm::dot(bottom_right, view.right) / glm::dot(bottom_right, view.forward), view.half_width,
+              1e-6f);
 }
 
 TEST(ViewRay, IsTheDoublePrecisionRayOfTheCamera) {
   Random random(12);
   for (int i = 0; i < 5000; ++i) {
-    const scene::Camera camera{.name = {}, .eye = random.in_box(5), .target = random.in_box(5), .vertical_fov_degrees = random.uniform(5, 120)};
-    const glm::ivec2 size(1 + static_cast<int>(random.uniform(0, 300)), 1 + static_cast<int>(random.uniform(0, 300)));
+    const scene::Camera camera{.name = {},
+                               .eye = random.in_box(5),
+                               .target = random.in_box(5),
+                               .vertical_fov_degrees = random.uniform(5, 120)};
+    const glm::ivec2 size(1 + static_cast<int>(random.uniform(0, 300)),
+                          1 + static_cast<int>(random.uniform(0, 300)));
     const scene::CameraFrame frame = scene::camera_frame(camera, size);
     const ViewBlock view = make_view(camera, size);
     const double x = random.uniform(0, size.x), y = random.uniform(0, size.y);
-    const glm::dvec3 expected = glm::normalize(frame.forward + (2 * x / size.x - 1) * frame.half_width * frame.right +
-                                               (1 - 2 * y / size.y) * frame.half_height * frame.up);
+    const glm::dvec3 expected =
+        glm::normalize(frame.forward + (2 * x / size.x - 1) * frame.half_width * frame.right +
+                       (1 - 2 * y / size.y) * frame.half_height * frame.up);
     const glm::vec3 ray = view_ray(view, glm::vec2(x, y));
     EXPECT_LT(glm::length(glm::dvec3(ray) - expected), 1e-6);
     EXPECT_NEAR(glm::length(ray), 1.0f, 3e-7f);
@@ -57,15 +65,19 @@ TEST(ViewRay, IsTheDoublePrecisionRayOfTheCamera) {
 }
 
 TEST(QuarterPixel, IsAQuarterOfTheAngleBetweenNeighboursAtTheCentre) {
-  const ViewBlock view = make_view({.name = {}, .eye = {}, .target = {0, 0, -1}, .vertical_fov_degrees = 45}, {1024, 1024});
+  const ViewBlock view =
+      make_view({.name = {}, .eye = {}, .target = {0, 0, -1}, .vertical_fov_degrees = 45}, {1024, 1024});
   const glm::vec3 a = view_ray(view, {512.0f, 511.5f}), b = view_ray(view, {512.0f, 512.5f});
   EXPECT_NEAR(quarter_pixel(view) / (0.25f * glm::length(glm::cross(a, b))), 1.0f, 1e-3f);
-  EXPECT_NEAR(static_cast<double>(quarter_pixel(view)), 0.25 * 2 * std::tan(glm::radians(22.5)) / 1024, 1e-10);
+  EXPECT_NEAR(static_cast<double>(quarter_pixel(view)), 0.25 * 2 * std::tan(glm::radians(22.5)) / 1024,
+              1e-10);
 }
 
 TEST(EyeRelative, LosesNothingFarFromTheOrigin) {
-  // A millimetre beside an eye 1,000 km away, where single precision knows 6 cm: exact as far as the vertex itself is.
-  const ViewBlock view = make_view({.name = {}, .eye = {1e6 + 0.001, -1e6, 3.0}, .target = {0, 0, 0}}, {8, 8});
+  // A millimetre beside an eye 1,000 km away, where single precision knows 6 cm: exact as far as the vertex
+  // itself is.
+  const ViewBlock view =
+      make_view({.name = {}, .eye = {1e6 + 0.001, -1e6, 3.0}, .target = {0, 0, 0}}, {8, 8});
   const glm::vec3 vertex(1e6f + 0.0625f, -1e6f, 2.0f);
   const glm::vec3 relative = eye_relative(view, vertex);
   EXPECT_NEAR(static_cast<double>(relative.x), 0.0625 - 0.001, 4e-9) << "the rounding of the result";
@@ -83,7 +95,8 @@ TEST(RayTriangleDistance, IsTheDistanceToThePlane) {
     const glm::dvec3 normal = glm::cross(glm::dvec3(b - a), glm::dvec3(c - a));
     const double facing = std::abs(glm::dot(glm::normalize(normal), ray));
     if (facing < 0.05 || glm::length(normal) < 0.5) continue;  // rounding of the corners is magnified by both
-    EXPECT_NEAR(static_cast<double>(ray_triangle_distance(glm::vec3(ray), a, b, c)), glm::length(point), 1e-5 / facing);
+    EXPECT_NEAR(static_cast<double>(ray_triangle_distance(glm::vec3(ray), a, b, c)), glm::length(point),
+                1e-5 / facing);
   }
 }
 
