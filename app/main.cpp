@@ -41,7 +41,10 @@ CLI::App& add_image_command(CLI::App& app, Options& options, const char* name, c
 void require_known_words(const CLI::App& app, int argc, char** argv) {
   constexpr const char* k_commands = "use render, compare, scenes or info";
   if (argc < 2) throw Error(ExitCode::usage, "command line", "it names no command", k_commands);
-  if (argv[1][0] == '-') return;
+  if (argv[1][0] == '-') {
+    if (app.get_option_no_throw(argv[1])) return;
+    throw Error(ExitCode::usage, argv[1], "there is no such option before a command", k_commands);
+  }
   const auto commands = app.get_subcommands([&](const CLI::App* c) { return c->get_name() == argv[1]; });
   if (commands.empty()) throw Error(ExitCode::usage, argv[1], "there is no such command", k_commands);
   for (int i = 2; i < argc; ++i) {

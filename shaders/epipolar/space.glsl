@@ -45,7 +45,7 @@ FUNCTION float angle_of(float y, float x) {
   return y < 0.0f ? -p : p;
 }
 
-// Sine and cosine of α. Kept apart because sin α divides the airlight, and must be right to the last digit near 0 and π.
+// Sine and cosine of α. Kept apart because sin α divides the airlight, and the sine of α would have lost its digits near 0 and π.
 struct EyeAngle {
   float sine;
   float cosine;
@@ -97,7 +97,7 @@ FUNCTION vec3 view_ray_of(IN(EpipolarBlock) space, float alpha, float theta) {
 }
 
 // Length of the path from the light to the eye by way of (α, φ): t + r = D cos((α − φ)/2) / cos((α + φ)/2), which has
-// no 0/0. Taken from π − α, it is right to the last digit near α = π too. Infinite at α + φ = π.
+// no 0/0. Taken from π − α, it keeps its digits near α = π, where both sines are small. Infinite at α + φ = π.
 FUNCTION float path_length(IN(EpipolarBlock) space, float complement, float phi) {
   float opening = sin(0.5f * max(complement - phi, 0.0f));  // cos((α + φ)/2)
   float closing = sin(0.5f * (complement + phi));           // cos((α − φ)/2)

@@ -12,6 +12,7 @@ layout(binding = 13) uniform samplerBuffer table;  // vec2
 // an interpolated table keeps no digits of their ratio. 0 for a view that does not reach there (media/vsv.cpp): llvmpipe
 // runs both sides of a branch.
 layout(constant_id = 6) const uint k_direct_cells = 0;
+const uint k_direct_parts = 4u;  // of such a cell: on an open ray the integrand falls to 0 within its last one
 
 // Sum of ±S over the changes of visibility of one word, by the two rows. The first change is from light to shadow.
 void add_changes(uint changes, uint first_cell, uint row_start, inout float sign, inout vec2 sum[3]) {
@@ -39,7 +40,10 @@ void main() {
       if ((shadow >> k & 1u) != 0u) continue;
       float from = phi_of_cell(ray.cells, float(k));
       float to = min(phi_of_cell(ray.cells, float(k + 1u)), ray.phi_end);
-      if (to > from) integral += integrate_cell(space, medium, k_phase, complement, from, to);
+      float part = max(to - from, 0.0) / float(k_direct_parts);
+      for (uint i = 0u; i < k_direct_parts; ++i) {
+        integral += integrate_cell(space, medium, k_phase, complement, from + float(i) * part, from + float(i + 1u) * part);
+      }
     }
   } else {
     float row = clamp((ray.alpha - space.alpha_min) / medium.table_row_step, 0.0, float(k_table_rows) - 1.001);

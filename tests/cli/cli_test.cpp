@@ -63,7 +63,7 @@ class CommandLine : public testing::Test {
   }
 
   Result airlight(const Words& arguments) const {
-    std::string command = quality::shell_quote(AIRLIGHT_BINARY);
+    std::string command = fmt::format("timeout 60 {}", quality::shell_quote(AIRLIGHT_BINARY));
     for (const std::string& argument : arguments)
       command += fmt::format(" {}", quality::shell_quote(argument));
     return shell(command);
@@ -245,7 +245,7 @@ TEST_F(BadFile, MissingSceneIsNamed) {
 }
 
 TEST_F(BadFile, UnwritableOutputIsFoundBeforeTheWork) {
-  // An image of this size would take longer than the suite may.
+  // An image of this size would take longer than these tests wait.
   const Words huge = {"--size", "8192x8192", "--volume", "reference"};
   for (Words words : {Words{"render", "window", "-o", "nosuch/x.exr"},
                       {"render", "window", "-o", "/dev/null/x.exr"},
