@@ -9,35 +9,13 @@
 #include "reference/phase.h"
 #include "reference/reference.h"
 #include "scene/scene.h"
+#include "support/scenes.h"
 
 /// What the tests of the reference share: geometry made by code, views of one pixel, and the airlight
 /// integrated over the distance t instead of over φ, by a quadrature of its own.
 namespace airlight::reference::tests {
 
-inline void add_triangle(scene::Geometry& geometry, glm::vec3 a, glm::vec3 b, glm::vec3 c) {
-  if (geometry.materials.empty()) geometry.materials.emplace_back();
-  const auto first = static_cast<std::uint32_t>(geometry.positions.size());
-  geometry.positions.insert(geometry.positions.end(), {a, b, c});
-  geometry.triangles.emplace_back(first, first + 1, first + 2);
-  geometry.material_of_triangle.push_back(0);
-}
-
-/// The parallelogram corner, corner + u, corner + u + v, corner + v.
-inline void add_quad(scene::Geometry& geometry, glm::vec3 corner, glm::vec3 u, glm::vec3 v) {
-  add_triangle(geometry, corner, corner + u, corner + u + v);
-  add_triangle(geometry, corner, corner + u + v, corner + v);
-}
-
-inline void add_box(scene::Geometry& geometry, glm::vec3 lower, glm::vec3 upper) {
-  const glm::vec3 size = upper - lower;
-  const glm::vec3 x(size.x, 0, 0), y(0, size.y, 0), z(0, 0, size.z);
-  add_quad(geometry, lower, x, y);
-  add_quad(geometry, lower, y, z);
-  add_quad(geometry, lower, z, x);
-  add_quad(geometry, lower + z, x, y);
-  add_quad(geometry, lower + x, y, z);
-  add_quad(geometry, lower + y, z, x);
-}
+using airlight::tests::add_box, airlight::tests::add_quad, airlight::tests::add_triangle;
 
 /// A sphere of 2·`rings` × `rings` quads, its vertices on the sphere.
 inline void add_sphere(scene::Geometry& geometry, glm::vec3 centre, float radius, int rings) {

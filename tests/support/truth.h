@@ -1,0 +1,72 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+#include "support/shared.h"
+
+/// Images by Blender Cycles, a renderer that shares nothing with Airlight. They, their views and noise (0.5 %
+/// rms a pixel) are described in truth/README.md of the shared data.
+namespace airlight::tests {
+
+struct CyclesImage {
+  const char* image;
+  const char* scene;
+  glm::dvec3 eye, target;
+  double fov_degrees;
+  glm::dvec3 light;
+  float intensity, sigma_s, sigma_a, g;
+  float albedo;
+  int samples;  ///< of the converged reference, as many as the scene's detail asks for
+
+  std::filesystem::path image_file() const { return shared_file("truth/" + std::string(image) + ".exr"); }
+  std::filesystem::path scene_file() const { return shared_file("scenes/" + std::string(scene) + ".glb"); }
+
+  scene::View view() const {
+    scene::View view;
+    view.camera.eye = eye;
+    view.camera.target = target;
+    view.camera.vertical_fov_degrees = fov_degrees;
+    view.light.position = light;
+    view.light.intensity = glm::vec3(intensity);
+    view.medium.sigma_s = glm::vec3(sigma_s);
+    view.medium.sigma_a = glm::vec3(sigma_a);
+    if (g != 0) view.medium.phase = scene::PhaseFunction::henyey_greenstein;
+    view.medium.g = g;
+    view.size = {256, 256};
+    return view;
+  }
+};
+
+inline void PrintTo(const CyclesImage& truth, std::ostream* stream) {
+  *stream << truth.image;
+}
+
+// clang-format off
+inline const CyclesImage k_cycles_airlight[] = {
+    {"cornell_airlight", "cornell_box_36", {0, 1, 3.6}, {0, 1, 0}, 40, {0.2, 1.85, 0.1}, 2, 0.3f, 0.05f, 0, 0, 128},
+    {"fence_airlight", "victorian_fence_19k", {0.3, 0.5, 3}, {0, 0.4, 0}, 45, {-0.2, 0.7, -1.0}, 8, 0.25f, 0, 0, 0, 256},
+    {"maple_airlight", "maple_198k", {-2, 2, 11}, {0.5, 3.8, 0}, 50, {1.5, 5, -5}, 200, 0.06f, 0, 0.5f, 0, 1024},
+    {"sponza_airlight", "sponza_262k", {-12, 3, -0.5}, {0, 5, 0}, 60, {3, 7, 0}, 300, 0.04f, 0.01f, 0, 0, 128},
+};
+inline const CyclesImage k_cycles_full =
+    {"fence_full", "victorian_fence_19k", {0.3, 0.5, 3}, {0, 0.4, 0}, 45, {1.5, 1.2, 1.8}, 8, 0.25f, 0, 0, 0.5f, 128};
+// clang-format on
+
+inline double mean(const std::vector<float>& values) {
+  double sum = 0;
+  for (float value : values) sum += static_cast<double>(value);
+  return sum / static_cast<double>(values.size());
+}
+
+inline double percentile(std::vector<float> values, double percent) {
+  std::sort(values.begin(), values.end());
+  return static_cast<double>(
+      values[static_cast<std::size_t>(percent / 100 * static_cast<double>(values.size() - 1))]);
+}
+
+}  // namespace airlight::tests
