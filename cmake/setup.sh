@@ -26,7 +26,9 @@ install_packages() {
 # build PRESET TARGET: configures once, builds what changed, and says so only where there is something to do.
 build() {
   [ -f "build/$1/build.ninja" ] || { echo "Configuring build/$1" >&2; cmake --preset "$1" >/dev/null; }
-  if ! ninja -C "build/$1" -n "$2" | grep -q 'no work to do'; then
+  local plan
+  plan=$(ninja -C "build/$1" -n "$2")
+  if [[ $plan != *'no work to do'* ]]; then
     echo "Building build/$1" >&2
     ninja -C "build/$1" "$2" | grep -vE '^(\[|ninja: Entering)' >&2 || [ "${PIPESTATUS[0]}" -eq 0 ]
   fi
