@@ -51,8 +51,7 @@ void say(std::string_view line) {
 
 void say_warnings(const scene::ImportReport& report) {
   if (report.degenerate_triangles > 0) {
-    say(fmt::format("airlight: warning: triangles of zero area dropped: {}",
-                    report.degenerate_triangles));
+    say(fmt::format("airlight: warning: triangles of zero area dropped: {}", report.degenerate_triangles));
   }
   for (const std::string& warning : report.warnings) say("airlight: warning: " + warning);
 }
