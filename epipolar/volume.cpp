@@ -16,9 +16,9 @@ ShadowVolume::ShadowVolume(const gpu::Context& context, const Resolution& resolu
   }
 }
 
-void ShadowVolume::find_ranges(const frame::FrameInputs& inputs) const {
+shaders::EpipolarBlock ShadowVolume::find_ranges(const frame::FrameInputs& inputs) const {
+  const shaders::EpipolarBlock block = epipolar_block(inputs.view, grid_.resolution().alpha);
   inputs.timer.time("ranges", [&] {
-    const shaders::EpipolarBlock block = epipolar_block(inputs.view, grid_.resolution().alpha);
     grid_.block().write(&block, sizeof block);
     grid_.phi_range().clear();
     grid_.bind();
@@ -26,6 +26,7 @@ void ShadowVolume::find_ranges(const frame::FrameInputs& inputs) const {
     const glm::uvec2 size = inputs.view.size;
     phi_range_.dispatch({size.x, (size.y + 31) / 32, 1}, {64, 1, 1});
   });
+  return block;
 }
 
 void ShadowVolume::fill(const frame::FrameInputs& inputs) const {

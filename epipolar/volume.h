@@ -6,6 +6,7 @@
 #include "epipolar/or_scan.h"
 #include "epipolar/populate_scan.h"
 #include "epipolar/populate_shadow_map.h"
+#include "epipolar/space_math.h"
 #include "frame/methods.h"
 
 namespace airlight::epipolar {
@@ -24,7 +25,8 @@ class ShadowVolume {
   ShadowVolume(const gpu::Context& context, const Resolution& resolution, Scan scan);
 
   /// Finds the ranges of α and φ for a view, and cuts φ equally. Times `ranges`. Leaves the grid bound.
-  void find_ranges(const frame::FrameInputs& inputs) const;
+  /// @returns what it wrote to the grid's block
+  shaders::EpipolarBlock find_ranges(const frame::FrameInputs& inputs) const;
 
   /// Populates and scans; `inputs.shadow_map` must be there, the grid bound. Times `populate` and `scan`, or
   /// `populate_scan`.

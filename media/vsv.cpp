@@ -3,7 +3,6 @@
 #include <array>
 #include <numbers>
 
-#include "epipolar/space.h"
 #include "media/medium.h"
 
 #include "spirv/media/phi_growth_comp.h"
@@ -64,10 +63,9 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
   shaders::MediumBlock block = medium_block(inputs.view);
   const bool is_grey = block.sigma_t.x == block.sigma_t.y && block.sigma_t.y == block.sigma_t.z;
   const epipolar::Resolution& resolution = volume_.grid().resolution();
-  const shaders::EpipolarBlock space = epipolar::epipolar_block(inputs.view, resolution.alpha);
+  const shaders::EpipolarBlock space = volume_.find_ranges(inputs);
   load(inputs.context, {static_cast<std::uint32_t>(inputs.view.medium.phase), is_grey ? 1u : 3u,
                         direct_cells(space, resolution)});
-  volume_.find_ranges(inputs);
   inputs.timer.time("ranges", [&] {
     block.table_row_step =
         space.alpha_step * static_cast<float>(resolution.alpha) / static_cast<float>(k_table_rows - 1);
