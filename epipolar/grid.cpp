@@ -1,5 +1,7 @@
 #include "epipolar/grid.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "epipolar/space_math.h"
@@ -9,6 +11,29 @@ namespace airlight::epipolar {
 
 using scene::Error;
 using scene::ExitCode;
+
+namespace {
+
+constexpr const char* k_remedy = "ask for fewer cells with --alpha, --theta, --phi";
+
+std::int64_t plane_bytes(const Resolution& resolution) {
+  return std::int64_t{resolution.alpha} * resolution.phi / 8;
+}
+
+/// Cuts the planes into windows that start where a binding may start.
+std::vector<Window> cut(const Resolution& resolution, const gpu::Limits& limits) {
+  const std::int64_t bytes = plane_bytes(resolution);
+  std::int64_t planes = std::min<std::int64_t>(limits.max_storage_block_bytes / bytes, resolution.theta);
+  while (planes > 0 && planes < resolution.theta && planes * bytes % limits.storage_offset_alignment != 0)
+    --planes;
+  if (planes == 0) gpu::require_storage_block(limits, bytes * resolution.theta, "the grid", k_remedy);
+  std::vector<Window> windows;
+  for (int first = 0; first < resolution.theta; first += static_cast<int>(planes))
+    windows.push_back({first, std::min(static_cast<int>(planes), resolution.theta - first)});
+  return windows;
+}
+
+}  // namespace
 
 void validate(const Resolution& resolution) {
   const auto require = [](bool good, const char* option, int value, const char* rule) {
@@ -31,22 +56,49 @@ std::array<gpu::Constant, 3> resolution_constants(const Resolution& resolution) 
 
 Grid::Grid(const gpu::Context& context, const Resolution& resolution) : resolution_(resolution) {
   validate(resolution);
-  const std::int64_t bytes = std::int64_t{resolution.alpha} * resolution.theta * resolution.phi / 8;
-  gpu::require_storage_block(
-      context.limits(), bytes,
-      fmt::format("the {} × {} × {} grid", resolution.alpha, resolution.theta, resolution.phi),
-      "ask for fewer cells with --alpha, --theta, --phi");
-  bits_ = gpu::Buffer(bytes);
-  texels_ = {context, bits_, gpu::Format::rgba32ui, "the grid"};
+  const auto& [alpha, theta, phi] = resolution;
+  const std::string name = fmt::format("the {} × {} × {} grid", alpha, theta, phi);
+  gpu::require_texels(context.limits(), std::int64_t{alpha} * theta * phi / 128, name, k_remedy);
+  const std::int64_t light_rays = std::int64_t{theta} * phi;
+  gpu::require_storage_block(context.limits(), 4 * light_rays, "the light rays of " + name, k_remedy);
+  windows_ = cut(resolution, context.limits());
+  bits_ = gpu::Buffer(plane_bytes(resolution) * theta);
+  first_shadowed_ = gpu::Buffer(4 * light_rays);
+  texels_ = {context, bits_, gpu::Format::rgba32ui, name};
+  first_shadowed_texels_ = {context, first_shadowed_, gpu::Format::rgba32ui, name};
   block_ = gpu::Buffer(sizeof(shaders::EpipolarBlock));
   phi_range_ = gpu::Buffer(2 * sizeof(float));
+  pass_ = gpu::Buffer(8 * sizeof(std::uint32_t));
 }
 
 void Grid::bind() const {
   block_.bind_uniform(1);
   phi_range_.bind_storage(4);
-  bits_.bind_storage(5);
+  first_shadowed_.bind_storage(7);
   texels_.bind_sampler(12);
+  first_shadowed_texels_.bind_sampler(14);
+}
+
+void Grid::begin_pass(const Window& window, const std::array<std::uint32_t, 5>& levels) const {
+  const std::int64_t bytes = plane_bytes(resolution_);
+  bits_.bind_storage(5, window.first_plane * bytes, window.planes * bytes);
+  const std::array<std::uint32_t, 8> block = {static_cast<std::uint32_t>(window.first_plane),
+                                              static_cast<std::uint32_t>(window.planes),
+                                              levels[0],
+                                              levels[1],
+                                              levels[2],
+                                              levels[3],
+                                              levels[4],
+                                              0};
+  pass_.write(block.data(), sizeof block);
+  pass_.bind_uniform(3);
+}
+
+void dispatch_planes(const gpu::Program& program, const Grid& grid, int invocations_x, glm::uvec2 group) {
+  for (const Window& window : grid.windows()) {
+    grid.begin_pass(window);
+    program.dispatch({invocations_x, window.planes, 1}, {group, 1});
+  }
 }
 
 }  // namespace airlight::epipolar

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "gpu/buffer.h"
 #include "gpu/context.h"
@@ -23,10 +24,18 @@ void validate(const Resolution& resolution);
 /// The specialization constants of shaders/epipolar/resolution.glsl.
 std::array<gpu::Constant, 3> resolution_constants(const Resolution& resolution);
 
+/// A run of half-planes whose bits fit into one shader storage buffer.
+struct Window {
+  int first_plane, planes;
+};
+
 /// The grid's bits and the frame's ranges, on the GPU; see shaders/epipolar/grid.glsl.
+///
+/// Shaders read all bits as texels. They write them a window at a time, because one storage buffer may be
+/// small: 128 MiB on llvmpipe.
 class Grid {
  public:
-  /// @throws scene::Error (driver) when the grid is larger than one shader storage buffer may be.
+  /// @throws scene::Error (driver) when the driver cannot hold the grid, naming its limit.
   Grid(const gpu::Context& context, const Resolution& resolution);
 
   const Resolution& resolution() const { return resolution_; }
@@ -34,14 +43,29 @@ class Grid {
   const gpu::Buffer& block() const { return block_; }          ///< EpipolarBlock
   const gpu::Buffer& phi_range() const { return phi_range_; }  ///< see shaders/epipolar/phi_range.glsl
 
-  /// Binds the block to uniform binding 1, the φ range to storage binding 4, the bits to storage binding 5
-  /// and, as texels, to sampler 12.
+  /// For each light ray (θ_j, φ_k), at index j·N_φ + k, the first cell of α in shadow; N_α where none is.
+  const gpu::Buffer& first_shadowed() const { return first_shadowed_; }
+
+  /// Binds the block to uniform binding 1, the φ range to storage binding 4, the first shadowed cells to
+  /// storage binding 7 and sampler 14, the bits as texels to sampler 12.
   void bind() const;
+
+  /// What all planes together consist of.
+  const std::vector<Window>& windows() const { return windows_; }
+
+  /// Makes a window, and levels of the multi-pass scan, what the next dispatches work on: binds the bits of
+  /// the window to storage binding 5 and shaders/epipolar/window.glsl to uniform binding 3.
+  void begin_pass(const Window& window, const std::array<std::uint32_t, 5>& levels = {}) const;
 
  private:
   Resolution resolution_;
-  gpu::Buffer bits_, block_, phi_range_;
-  gpu::TexelView texels_;
+  std::vector<Window> windows_;
+  gpu::Buffer bits_, block_, phi_range_, first_shadowed_, pass_;
+  gpu::TexelView texels_, first_shadowed_texels_;
 };
+
+/// Runs `program` once a window over `invocations_x` × planes; its shader includes
+/// shaders/epipolar/window.glsl.
+void dispatch_planes(const gpu::Program& program, const Grid& grid, int invocations_x, glm::uvec2 group);
 
 }  // namespace airlight::epipolar

@@ -8,8 +8,7 @@ OrScan::OrScan(const Resolution& resolution)
     : program_(gpu::Program::compute(k_or_scan_comp, resolution_constants(resolution))) {}
 
 void OrScan::run(const Grid& grid) const {
-  const Resolution& n = grid.resolution();
-  program_.dispatch({n.phi / 128, n.theta, 1}, {4, 4, 1});
+  dispatch_planes(program_, grid, grid.resolution().phi / 128, {4, 4});
 }
 
 }  // namespace airlight::epipolar

@@ -12,7 +12,7 @@ class PopulateShadowMap {
  public:
   explicit PopulateShadowMap(const Resolution& resolution);
 
-  /// Clears the grid and sets the bits. The view's block and the grid are bound.
+  /// Overwrites `grid.first_shadowed()`. The view's block and the grid are bound.
   void run(const Grid& grid, const frame::ShadowMap& shadow_map) const;
 
  private:

@@ -56,18 +56,44 @@ Range alpha_range(const scene::CameraFrame& camera, glm::dvec3 axis) {
   return range;
 }
 
-shaders::EpipolarBlock epipolar_block(const scene::View& view, int alpha_count) {
+Range theta_range(const scene::CameraFrame& camera, const Axes& axes) {
+  using std::numbers::pi;
+  if (in_image(camera, axes.axis) || in_image(camera, -axes.axis)) return {-pi, pi};
+  // Seen along the axis the image is a convex cone that does not hold the origin: it spans less than π, its
+  // extremes are corners, and all are within π of its inside.
+  const auto theta = [&](glm::dvec3 ray) { return std::atan2(glm::dot(ray, axes.f), glm::dot(ray, axes.u)); };
+  const double inside = theta(camera.forward);
+  Range range{0.0, 0.0};
+  for (const double x : {-1.0, 1.0}) {
+    for (const double y : {-1.0, 1.0}) {
+      const double corner =
+          theta(camera.forward + x * camera.half_width * camera.right + y * camera.half_height * camera.up);
+      const double from_inside = std::remainder(corner - inside, 2.0 * pi);
+      range.lower = std::min(range.lower, from_inside);
+      range.upper = std::max(range.upper, from_inside);
+    }
+  }
+  return {inside + range.lower, inside + range.upper};
+}
+
+shaders::EpipolarBlock epipolar_block(const scene::View& view, const Resolution& resolution, Ranges ranges) {
+  using std::numbers::pi;
   const glm::dvec3 to_light = view.light.position - view.camera.eye;
   const double distance = glm::length(to_light);
   const Axes axes = make_axes(to_light / distance);
-  const Range alpha = alpha_range(scene::camera_frame(view.camera, view.size), axes.axis);
+  const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
+  const Range alpha = ranges == Ranges::full ? Range{0.0, pi} : alpha_range(camera, axes.axis);
+  const Range theta = ranges == Ranges::frame ? theta_range(camera, axes) : Range{-pi, pi};
   shaders::EpipolarBlock block{};
   block.axis = glm::vec3(axes.axis);
   block.distance = static_cast<float>(distance);
   block.u = glm::vec3(axes.u);
   block.f = glm::vec3(axes.f);
   block.alpha_min = static_cast<float>(alpha.lower);
-  block.alpha_step = static_cast<float>((alpha.upper - alpha.lower) / alpha_count);
+  block.alpha_step = static_cast<float>((alpha.upper - alpha.lower) / resolution.alpha);
+  block.theta_middle = static_cast<float>(std::remainder(0.5 * (theta.lower + theta.upper), 2.0 * pi));
+  block.theta_half = static_cast<float>(0.5 * (theta.upper - theta.lower));
+  block.theta_step = static_cast<float>((theta.upper - theta.lower) / resolution.theta);
   return block;
 }
 

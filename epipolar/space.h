@@ -2,6 +2,7 @@
 
 #include <glm/glm.hpp>
 
+#include "epipolar/grid.h"
 #include "epipolar/space_math.h"
 #include "scene/scene.h"
 
@@ -30,7 +31,18 @@ struct Range {
 /// itself.
 Range alpha_range(const scene::CameraFrame& camera, glm::dvec3 axis);
 
-/// The uniform block of a view for a grid of `alpha_count` cells in α.
-shaders::EpipolarBlock epipolar_block(const scene::View& view, int alpha_count);
+/// The smallest interval of θ that holds the rays of an image, its borders included: a full turn around 0
+/// where the image holds axes.axis or −axes.axis. Its bounds may lie beyond ±π.
+Range theta_range(const scene::CameraFrame& camera, const Axes& axes);
+
+/// Which angles the grid covers.
+enum class Ranges {
+  frame,      ///< what the frame can see, in α, θ and φ
+  alpha_phi,  ///< the same, and all θ: the paper's (Wyman 2011, section 4.3)
+  full,       ///< all angles there are
+};
+
+/// The uniform block of a view.
+shaders::EpipolarBlock epipolar_block(const scene::View& view, const Resolution& resolution, Ranges ranges);
 
 }  // namespace airlight::epipolar

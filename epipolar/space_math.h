@@ -3,6 +3,7 @@
 #include "frame/view_block.h"
 
 namespace airlight::shaders {
+#include "epipolar/conservative.glsl"
 #include "epipolar/grid.glsl"
-static_assert(sizeof(EpipolarBlock) == 48, "must match std140");
+static_assert(sizeof(EpipolarBlock) == 64, "must match std140");
 }  // namespace airlight::shaders

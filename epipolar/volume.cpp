@@ -1,41 +1,88 @@
 #include "epipolar/volume.h"
 
-#include "epipolar/space.h"
+#include <bit>
 
 #include "spirv/epipolar/phi_range_comp.h"
+#include "spirv/epipolar/scatter_comp.h"
 
 namespace airlight::epipolar {
 
-ShadowVolume::ShadowVolume(const gpu::Context& context, const Resolution& resolution, Scan scan)
-    : grid_(context, resolution), phi_range_(gpu::Program::compute(k_phi_range_comp)) {
-  if (scan == Scan::fused) {
-    populate_scan_.emplace(resolution);
-  } else {
-    populate_.emplace(resolution);
-    scan_.emplace(resolution);
+ShadowVolume::ShadowVolume(const gpu::Context& context, const VolumeSettings& settings)
+    : settings_(settings),
+      grid_(context, settings.resolution),
+      phi_range_(gpu::Program::compute(k_phi_range_comp)),
+      scatter_(gpu::Program::compute(k_scatter_comp, resolution_constants(settings.resolution))) {
+  switch (settings.populate) {
+    case Populate::shadow_map:
+      populate_shadow_map_.emplace(settings.resolution);
+      break;
+    case Populate::conservative:
+      populate_conservative_.emplace(settings.resolution);
+      break;
+  }
+  switch (settings.scan) {
+    case Scan::fused:
+      fused_scan_.emplace(settings.resolution);
+      break;
+    case Scan::column:
+      or_scan_.emplace(settings.resolution);
+      break;
+    case Scan::multi_pass:
+      mip_scan_.emplace(context, grid_);
+      break;
   }
 }
 
 shaders::EpipolarBlock ShadowVolume::find_ranges(const frame::FrameInputs& inputs) const {
-  const shaders::EpipolarBlock block = epipolar_block(inputs.view, grid_.resolution().alpha);
+  const shaders::EpipolarBlock block = epipolar_block(inputs.view, settings_.resolution, settings_.ranges);
   inputs.timer.time("ranges", [&] {
     grid_.block().write(&block, sizeof block);
     grid_.phi_range().clear();
     grid_.bind();
-    inputs.surfaces.bind_sampler(0);
-    const glm::uvec2 size = inputs.view.size;
-    phi_range_.dispatch({size.x, (size.y + 31) / 32, 1}, {64, 1, 1});
+    if (settings_.ranges == Ranges::full) {
+      const auto order_of_pi = std::bit_cast<std::uint32_t>(2.0f);
+      grid_.phi_range().write(&order_of_pi, sizeof order_of_pi);
+    } else {
+      inputs.surfaces.bind_sampler(0);
+      const glm::uvec2 size = inputs.view.size;
+      phi_range_.dispatch({size.x, (size.y + 31) / 32, 1}, {64, 1, 1});
+    }
   });
   return block;
 }
 
-void ShadowVolume::fill(const frame::FrameInputs& inputs) const {
-  if (populate_scan_) {
-    inputs.timer.time("populate_scan", [&] { populate_scan_->run(grid_, *inputs.shadow_map); });
-  } else {
-    inputs.timer.time("populate", [&] { populate_->run(grid_, *inputs.shadow_map); });
-    inputs.timer.time("scan", [&] { scan_->run(grid_); });
-  }
+void ShadowVolume::populate(const frame::FrameInputs& inputs) {
+  if (populate_shadow_map_) populate_shadow_map_->run(grid_, *inputs.shadow_map);
+  if (populate_conservative_) populate_conservative_->run(grid_, inputs.scene);
+}
+
+void ShadowVolume::scatter() const {
+  grid_.bits().clear();
+  dispatch_planes(scatter_, grid_, settings_.resolution.phi / 32, {16, 4});
+}
+
+void ShadowVolume::fill_unscanned(const frame::FrameInputs& inputs) {
+  populate(inputs);
+  scatter();
+}
+
+void ShadowVolume::fill(const frame::FrameInputs& inputs) {
+  inputs.timer.time("populate", [&] {
+    populate(inputs);
+    if (!fused_scan_) scatter();
+  });
+  inputs.timer.time("scan", [&] {
+    if (fused_scan_) fused_scan_->run(grid_);
+    if (or_scan_) or_scan_->run(grid_);
+    if (mip_scan_) mip_scan_->run(grid_);
+  });
+}
+
+std::map<std::string, std::int64_t> ShadowVolume::bytes() const {
+  std::map<std::string, std::int64_t> bytes = {{"grid", grid_.bits().bytes()},
+                                               {"light_rays", grid_.first_shadowed().bytes()}};
+  if (mip_scan_) bytes["mip_chain"] = mip_scan_->bytes();
+  return bytes;
 }
 
 }  // namespace airlight::epipolar

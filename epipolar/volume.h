@@ -1,45 +1,73 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
+#include "epipolar/fused_scan.h"
 #include "epipolar/grid.h"
+#include "epipolar/mip_scan.h"
 #include "epipolar/or_scan.h"
-#include "epipolar/populate_scan.h"
+#include "epipolar/populate_conservative.h"
 #include "epipolar/populate_shadow_map.h"
-#include "epipolar/space_math.h"
+#include "epipolar/space.h"
 #include "frame/methods.h"
 
 namespace airlight::epipolar {
 
-/// How the grid is populated and scanned.
+/// What fills the grid before the scan.
+enum class Populate {
+  shadow_map,    ///< PopulateShadowMap
+  conservative,  ///< PopulateConservative
+};
+
+/// How the grid is scanned.
 enum class Scan {
-  fused,   ///< PopulateScan: both in one pass
-  column,  ///< PopulateShadowMap, then OrScan
+  fused,       ///< FusedScan: bits are scattered and scanned in one pass
+  column,      ///< bits are scattered, then OrScan
+  multi_pass,  ///< bits are scattered, then MipScan
+};
+
+/// How a shadow volume is made.
+struct VolumeSettings {
+  Resolution resolution;
+  Populate populate = Populate::shadow_map;
+  Scan scan = Scan::fused;
+  Ranges ranges = Ranges::frame;
 };
 
 /// The voxelized shadow volume of a frame: ranges → populate → scan. Afterwards the bit of voxel (α_i, θ_j,
-/// φ_k) says whether its centre is in shadow. Based on: Wyman, "Voxelized Shadow Volumes", HPG 2011,
-/// section 2.2.
+/// φ_k) says whether it is in shadow. Based on: Wyman, "Voxelized Shadow Volumes", HPG 2011, section 2.2.
 class ShadowVolume {
  public:
-  ShadowVolume(const gpu::Context& context, const Resolution& resolution, Scan scan);
+  ShadowVolume(const gpu::Context& context, const VolumeSettings& settings);
 
-  /// Finds the ranges of α and φ for a view, and cuts φ equally. Times `ranges`. Leaves the grid bound.
+  bool needs_shadow_map() const { return settings_.populate == Populate::shadow_map; }
+
+  /// Finds the ranges of α, θ and φ for a view, and cuts φ equally. Times `ranges`. Leaves the grid bound.
   /// @returns what it wrote to the grid's block
   shaders::EpipolarBlock find_ranges(const frame::FrameInputs& inputs) const;
 
-  /// Populates and scans; `inputs.shadow_map` must be there, the grid bound. Times `populate` and `scan`, or
-  /// `populate_scan`.
-  void fill(const frame::FrameInputs& inputs) const;
+  /// Populates and scans; the grid is bound. Times `populate` and `scan`.
+  void fill(const frame::FrameInputs& inputs);
+
+  /// The same without the scan: the bits of the first voxel in shadow on each light ray.
+  void fill_unscanned(const frame::FrameInputs& inputs);
 
   const Grid& grid() const { return grid_; }
+  std::map<std::string, std::int64_t> bytes() const;  ///< memory on the GPU, by name
 
  private:
+  void populate(const frame::FrameInputs& inputs);
+  void scatter() const;
+
+  VolumeSettings settings_;
   Grid grid_;
-  gpu::Program phi_range_;
-  std::optional<PopulateScan> populate_scan_;
-  std::optional<PopulateShadowMap> populate_;
-  std::optional<OrScan> scan_;
+  gpu::Program phi_range_, scatter_;
+  std::optional<PopulateShadowMap> populate_shadow_map_;
+  std::optional<PopulateConservative> populate_conservative_;
+  std::optional<FusedScan> fused_scan_;
+  std::optional<OrScan> or_scan_;
+  std::optional<MipScan> mip_scan_;
 };
 
 }  // namespace airlight::epipolar

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
+#include "scene/error.h"
+
 #include <epoxy/gl.h>
 
 namespace airlight::gpu {
@@ -19,11 +23,21 @@ Buffer::Buffer(std::int64_t bytes, const void* data) : bytes_(bytes) {
   handle_ = Handle<delete_buffer>(name);
   glNamedBufferStorage(name, std::max<GLsizeiptr>(bytes, 4), bytes > 0 ? data : nullptr,
                        GL_DYNAMIC_STORAGE_BIT);
+  if (glGetError() == GL_OUT_OF_MEMORY) {
+    throw scene::Error(
+        scene::ExitCode::driver, "graphics memory",
+        fmt::format("the driver has no {:.0f} MiB left", static_cast<double>(bytes) / 0x100000),
+        "ask for less");
+  }
   if (!data) clear();
 }
 
 void Buffer::bind_storage(unsigned binding) const {
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name());
+}
+
+void Buffer::bind_storage(unsigned binding, std::int64_t offset, std::int64_t bytes) const {
+  glBindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, name(), offset, bytes);
 }
 
 void Buffer::bind_uniform(unsigned binding) const {
@@ -34,8 +48,8 @@ void Buffer::write(const void* data, std::int64_t bytes) const {
   glNamedBufferSubData(name(), 0, bytes, data);
 }
 
-void Buffer::clear() const {
-  glClearNamedBufferData(name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+void Buffer::clear(std::uint32_t word) const {
+  glClearNamedBufferData(name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &word);
 }
 
 void Buffer::read_bytes(void* destination) const {

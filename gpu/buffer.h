@@ -17,6 +17,7 @@ class Buffer {
   Buffer() = default;
 
   /// @param data initial contents, or nullptr for zeros; `bytes` of them
+  /// @throws scene::Error (driver) when there is no memory for it.
   explicit Buffer(std::int64_t bytes, const void* data = nullptr);
 
   template <typename T>
@@ -27,11 +28,12 @@ class Buffer {
   unsigned name() const { return handle_.get(); }
   std::int64_t bytes() const { return bytes_; }
 
-  void bind_storage(unsigned binding) const;  ///< as shader storage
-  void bind_uniform(unsigned binding) const;  ///< as a uniform block
+  void bind_storage(unsigned binding) const;                                           ///< as shader storage
+  void bind_storage(unsigned binding, std::int64_t offset, std::int64_t bytes) const;  ///< a part of it
+  void bind_uniform(unsigned binding) const;                                           ///< as a uniform block
 
   void write(const void* data, std::int64_t bytes) const;  ///< from offset 0; the buffer must be that large
-  void clear() const;                                      ///< to zeros
+  void clear(std::uint32_t word = 0) const;                ///< every word of it
 
   /// Waits for the GPU and copies the contents back.
   template <typename T>

@@ -124,7 +124,8 @@ Context::Context() {
              .max_texture_size = gl_integer(GL_MAX_TEXTURE_SIZE),
              .max_viewport = std::min(viewport[0], viewport[1]),
              .max_array_layers = gl_integer(GL_MAX_ARRAY_TEXTURE_LAYERS),
-             .max_work_group_invocations = gl_integer(GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS)};
+             .max_work_group_invocations = gl_integer(GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS),
+             .storage_offset_alignment = gl_integer(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT)};
   check();
 }
 
@@ -152,6 +153,15 @@ void require_storage_block(const Limits& limits, std::int64_t bytes, const std::
                           "(GL_MAX_SHADER_STORAGE_BLOCK_SIZE)",
                           static_cast<double>(bytes) / 0x100000,
                           static_cast<double>(limits.max_storage_block_bytes) / 0x100000),
+              remedy);
+}
+
+void require_texels(const Limits& limits, std::int64_t texels, const std::string& what,
+                    const std::string& remedy) {
+  if (texels <= limits.max_texel_buffer_texels) return;
+  throw Error(ExitCode::driver, what,
+              fmt::format("{} texels are more than this driver's {} (GL_MAX_TEXTURE_BUFFER_SIZE)", texels,
+                          limits.max_texel_buffer_texels),
               remedy);
 }
 

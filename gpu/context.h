@@ -13,6 +13,7 @@ struct Limits {
   int max_viewport;                      ///< of an image's side [pixels]
   int max_array_layers;
   int max_work_group_invocations;
+  int storage_offset_alignment;  ///< of a range of a buffer bound as shader storage [bytes]
 };
 
 struct Device {
@@ -55,5 +56,10 @@ class Context {
 /// hold.
 void require_storage_block(const Limits& limits, std::int64_t bytes, const std::string& what,
                            const std::string& remedy);
+
+/// @throws scene::Error (driver) naming the limit when `texels` are more than a buffer seen through a sampler
+/// may hold.
+void require_texels(const Limits& limits, std::int64_t texels, const std::string& what,
+                    const std::string& remedy);
 
 }  // namespace airlight::gpu

@@ -82,4 +82,11 @@ void Program::dispatch(glm::uvec3 invocations, glm::uvec3 group) const {
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
 }
 
+void Program::dispatch_indirect(const Buffer& groups, std::int64_t offset) const {
+  use();
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, groups.name());
+  glDispatchComputeIndirect(offset);
+  glMemoryBarrier(GL_ALL_BARRIER_BITS);
+}
+
 }  // namespace airlight::gpu

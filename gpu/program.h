@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include "gpu/buffer.h"
 #include "gpu/handle.h"
 
 namespace airlight::gpu {
@@ -33,6 +34,9 @@ class Program {
   /// Runs a compute program on enough work groups of `group` invocations to cover `invocations`, with all
   /// memory barriers that later shaders, draws and copies need.
   void dispatch(glm::uvec3 invocations, glm::uvec3 group) const;
+
+  /// The same, with the number of groups read on the GPU from three words at `offset` [bytes] of `groups`.
+  void dispatch_indirect(const Buffer& groups, std::int64_t offset) const;
 
  private:
   explicit Program(unsigned name) : handle_(name) {}

@@ -90,11 +90,7 @@ void Texture::read_bytes(void* destination, std::size_t bytes) const {
 TexelView::TexelView(const Context& context, const Buffer& buffer, Format format, const std::string& what) {
   const FormatInfo info = format_info(format);
   const std::int64_t texels = buffer.bytes() / (4 * info.channels);
-  if (texels > context.limits().max_texel_buffer_texels) {
-    throw scene::Error(scene::ExitCode::driver, what,
-                       fmt::format("{} elements are more than this driver's {} (GL_MAX_TEXTURE_BUFFER_SIZE)",
-                                   texels, context.limits().max_texel_buffer_texels));
-  }
+  require_texels(context.limits(), texels, what, "");
   GLuint name = 0;
   glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);
   handle_ = Handle<delete_texture>(name);

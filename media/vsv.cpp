@@ -29,9 +29,9 @@ std::uint32_t direct_cells(const shaders::EpipolarBlock& space, const epipolar::
 
 }  // namespace
 
-Vsv::Vsv(const gpu::Context& context, const epipolar::Resolution& resolution, VsvIntegral integral,
-         epipolar::Scan scan, PhiCells phi_cells)
-    : volume_(context, resolution, scan),
+Vsv::Vsv(const gpu::Context& context, const epipolar::VolumeSettings& volume, VsvIntegral integral,
+         PhiCells phi_cells)
+    : volume_(context, volume),
       integral_(integral),
       phi_cells_(phi_cells),
       medium_block_(sizeof(shaders::MediumBlock)) {}
@@ -89,7 +89,7 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
 }
 
 std::map<std::string, std::int64_t> Vsv::bytes() const {
-  std::map<std::string, std::int64_t> bytes = {{"grid", volume_.grid().bits().bytes()}};
+  std::map<std::string, std::int64_t> bytes = volume_.bytes();
   if (integral_ == VsvIntegral::table) bytes["table"] = table_.bytes();
   return bytes;
 }

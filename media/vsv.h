@@ -24,10 +24,10 @@ enum class PhiCells {
 class Vsv : public frame::Airlight {
  public:
   /// @throws scene::Error as epipolar::Grid.
-  Vsv(const gpu::Context& context, const epipolar::Resolution& resolution, VsvIntegral integral,
-      epipolar::Scan scan = epipolar::Scan::column, PhiCells phi_cells = PhiCells::growing);
+  Vsv(const gpu::Context& context, const epipolar::VolumeSettings& volume, VsvIntegral integral,
+      PhiCells phi_cells = PhiCells::growing);
 
-  bool needs_shadow_map() const override { return true; }
+  bool needs_shadow_map() const override { return volume_.needs_shadow_map(); }
   void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override;
   std::map<std::string, std::int64_t> bytes() const override;
 

@@ -39,9 +39,10 @@ std::size_t parse_word(const std::string& where, std::string_view value, const W
 
 constexpr Words<2> k_integrals = {"table", "riemann"};
 constexpr Words<1> k_integrals_planned = {"factored"};
-constexpr Words<1> k_populates = {"shadow-map"};
-constexpr Words<2> k_populates_planned = {"conservative", "screen-space"};
-constexpr Words<2> k_scans = {"fused", "column"};
+constexpr Words<2> k_populates = {"shadow-map", "conservative"};
+constexpr Words<1> k_populates_planned = {"screen-space"};
+constexpr Words<3> k_scans = {"fused", "column", "multi-pass"};
+constexpr Words<3> k_ranges = {"frame", "alpha-phi", "full"};
 constexpr Words<2> k_phi_cells = {"growing", "equal"};
 constexpr Words<2> k_rays = {"single", "packet"};
 
@@ -58,7 +59,7 @@ void set_resolution(Settings& settings, const std::string& where, std::string_vi
     const std::string_view what = error.what();
     throw Error(ExitCode::usage, where, std::string(what.substr(what.find(": ") + 2)));
   }
-  settings.resolution.*count = resolution.*count;
+  settings.volume.resolution.*count = resolution.*count;
 }
 
 const std::vector<Key>& keys() {
@@ -71,17 +72,30 @@ const std::vector<Key>& keys() {
        [](const Settings& settings) -> Value {
          return std::string(k_integrals[static_cast<std::size_t>(settings.integral)]);
        }},
-      {"populate", "what fills the grid: shadow-map",
-       [](Settings&, const std::string& where, std::string_view value) {
-         parse_word(where, value, k_populates, k_populates_planned);
-       },
-       [](const Settings&) -> Value { return std::string(k_populates[0]); }},
-      {"scan", "how the grid is filled: column (default: populate, then scan) or fused (both in one pass)",
+      {"populate", "what fills the grid: shadow-map (default) or conservative (voxelized triangles)",
        [](Settings& settings, const std::string& where, std::string_view value) {
-         settings.scan = static_cast<epipolar::Scan>(parse_word(where, value, k_scans, {}));
+         settings.volume.populate =
+             static_cast<epipolar::Populate>(parse_word(where, value, k_populates, k_populates_planned));
        },
        [](const Settings& settings) -> Value {
-         return std::string(k_scans[static_cast<std::size_t>(settings.scan)]);
+         return std::string(k_populates[static_cast<std::size_t>(settings.volume.populate)]);
+       }},
+      {"scan",
+       "how shadow is drawn out along light rays: fused (default: one pass that only writes), column (one "
+       "pass over set bits) or multi-pass (the paper's)",
+       [](Settings& settings, const std::string& where, std::string_view value) {
+         settings.volume.scan = static_cast<epipolar::Scan>(parse_word(where, value, k_scans, {}));
+       },
+       [](const Settings& settings) -> Value {
+         return std::string(k_scans[static_cast<std::size_t>(settings.volume.scan)]);
+       }},
+      {"ranges",
+       "angles that the grid covers: frame (default: what is seen), alpha-phi (the paper's: all theta) or full",
+       [](Settings& settings, const std::string& where, std::string_view value) {
+         settings.volume.ranges = static_cast<epipolar::Ranges>(parse_word(where, value, k_ranges, {}));
+       },
+       [](const Settings& settings) -> Value {
+         return std::string(k_ranges[static_cast<std::size_t>(settings.volume.ranges)]);
        }},
       {"phi-cells", "cells of the grid along the light angle: growing (default) or equal (the paper's)",
        [](Settings& settings, const std::string& where, std::string_view value) {
@@ -94,17 +108,17 @@ const std::vector<Key>& keys() {
        [](Settings& settings, const std::string& where, std::string_view value) {
          set_resolution(settings, where, value, &epipolar::Resolution::alpha);
        },
-       [](const Settings& settings) -> Value { return settings.resolution.alpha; }},
+       [](const Settings& settings) -> Value { return settings.volume.resolution.alpha; }},
       {"theta", "half-planes of the grid about the axis from eye to light (default 2048)",
        [](Settings& settings, const std::string& where, std::string_view value) {
          set_resolution(settings, where, value, &epipolar::Resolution::theta);
        },
-       [](const Settings& settings) -> Value { return settings.resolution.theta; }},
+       [](const Settings& settings) -> Value { return settings.volume.resolution.theta; }},
       {"phi", "cells of the grid along the light angle, a multiple of 128 (default 512)",
        [](Settings& settings, const std::string& where, std::string_view value) {
          set_resolution(settings, where, value, &epipolar::Resolution::phi);
        },
-       [](const Settings& settings) -> Value { return settings.resolution.phi; }},
+       [](const Settings& settings) -> Value { return settings.volume.resolution.phi; }},
       {"samples", "uniform steps in the light angle that look for changes of visibility (default 512)",
        [](Settings& settings, const std::string& where, std::string_view value) {
          settings.samples = parse_count(where, value);
@@ -238,11 +252,11 @@ std::span<const VolumeMethod> volume_methods() {
        }},
       {"vsv",
        "epipolar voxelized shadow volumes",
-       {"integral", "populate", "scan", "alpha", "theta", "phi", "phi-cells"},
+       {"integral", "populate", "scan", "ranges", "alpha", "theta", "phi", "phi-cells"},
        true,
        [](const gpu::Context& context, SharedReference&,
           const Settings& s) -> std::unique_ptr<frame::Airlight> {
-         return std::make_unique<media::Vsv>(context, s.resolution, s.integral, s.scan, s.phi_cells);
+         return std::make_unique<media::Vsv>(context, s.volume, s.integral, s.phi_cells);
        }},
       {"reference",
        "converged ray tracing on the CPU (Embree): the truth",

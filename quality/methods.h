@@ -12,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-#include "epipolar/grid.h"
+#include "epipolar/volume.h"
 #include "frame/methods.h"
 #include "media/vsv.h"
 #include "reference/reference.h"
@@ -22,9 +22,8 @@ namespace airlight::quality {
 /// What methods can be told. A method reads those that its registry line lists, and no others.
 struct Settings {
   media::VsvIntegral integral = media::VsvIntegral::table;
-  epipolar::Scan scan = epipolar::Scan::column;
   media::PhiCells phi_cells = media::PhiCells::growing;
-  epipolar::Resolution resolution;
+  epipolar::VolumeSettings volume;
   int samples = 512;  ///< of `reference`: uniform steps in φ a view ray that look for changes of visibility
   int steps = 512;    ///< of `reference-march`: shadow rays a view ray
   reference::RayMode rays = reference::RayMode::packet;  ///< of `reference-march`

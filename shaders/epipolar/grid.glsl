@@ -1,21 +1,26 @@
 // The voxel grid: which cell holds what, and where its bit is stored.
 //
-// N_α × N_θ × N_φ bits. Cells in θ are equal and cover (−π, π]; cells in α are equal and cover the frame's range of α; cells
-// in φ cover [0, φ_max] and grow along it. A cell is represented by its centre. One 128-bit texel (uvec4) holds 128 consecutive φ at one (α, θ),
+// N_α × N_θ × N_φ bits. Cells in θ and α are equal and cover the frame's ranges of θ and α; cells in φ cover [0, φ_max] and grow along it. A cell is represented by its centre. One 128-bit texel (uvec4) holds 128 consecutive φ at one (α, θ),
 // lowest bit first; the N_φ / 128 texels of a view ray are neighbours in memory, then the rays of one plane in order of α.
 #ifndef AIRLIGHT_GRID_GLSL
 #define AIRLIGHT_GRID_GLSL
 #include "epipolar/space.glsl"
 
-FUNCTION float theta_step(uint theta_count) { return 2.0f * k_pi / float(theta_count); }
+// Centre of plane j; may lie beyond ±π.
+FUNCTION float theta_centre(IN(EpipolarBlock) space, uint j) {
+  return space.theta_middle + ((float(j) + 0.5f) * space.theta_step - space.theta_half);
+}
 
-// Centre of plane j.
-FUNCTION float theta_centre(uint j, uint theta_count) { return (float(j) + 0.5f) * theta_step(theta_count) - k_pi; }
+// What to add to θ ∈ [−π, π] so that it lies within π of the middle of the range.
+FUNCTION float theta_turn(IN(EpipolarBlock) space, float theta) {
+  float from_middle = theta - space.theta_middle;
+  return from_middle > k_pi ? -2.0f * k_pi : from_middle < -k_pi ? 2.0f * k_pi : 0.0f;
+}
 
-// The plane whose cell holds θ ∈ [−π, π].
-FUNCTION uint theta_cell(float theta, uint theta_count) {
-  float j = floor((theta + k_pi) / theta_step(theta_count));
-  return uint(clamp(j, 0.0f, float(theta_count) - 1.0f));
+// The plane whose cell holds θ ∈ [−π, π], the nearest one for a θ outside the range.
+FUNCTION uint theta_cell(IN(EpipolarBlock) space, float theta, uint theta_count) {
+  float from_start = theta + theta_turn(space, theta) - space.theta_middle + space.theta_half;
+  return uint(clamp(floor(from_start / space.theta_step), 0.0f, float(theta_count) - 1.0f));
 }
 
 // The cell that holds α, the nearest one for an α outside the range.

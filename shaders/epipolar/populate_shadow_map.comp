@@ -5,24 +5,30 @@
 #include "epipolar/grid.glsl"
 #include "epipolar/resolution.glsl"
 #include "epipolar/phi_range.glsl"
-#include "epipolar/light_ray_occluder.glsl"
 
-// For each light ray (θ_j, φ_k): the nearest occluder of the shadow map, at α_d, sets the bit of the first cell in its
-// shadow (section 4.1.3). An invocation owns 32 neighbouring φ of one plane, and with them the words that it writes, so no
-// atomics are needed. The grid must be clear.
+// For each light ray (θ_j, φ_k), the nearest occluder of the shadow map (section 4.1.3).
 layout(local_size_x = 16, local_size_y = 4) in;
-layout(std430, binding = 5) buffer Grid { uint grid[]; };
+layout(std140, binding = 0) uniform ViewUniform { ViewBlock view; };
+layout(std140, binding = 1) uniform EpipolarUniform { EpipolarBlock space; };
+layout(binding = 0) uniform sampler2DArray shadow_map;
+layout(std430, binding = 7) writeonly buffer FirstShadowed { uint first_shadowed[]; };
+
+const uint k_planes = 16u;  // an invocation's: what depends on φ alone is worked out once
 
 void main() {
-  uint word = gl_GlobalInvocationID.x;
-  uint j = gl_GlobalInvocationID.y;
-  if (word >= k_words_per_ray || j >= k_theta_count) return;
-
-  float theta = theta_centre(j, k_theta_count);
-  vec3 outward = cos(theta) * space.u + sin(theta) * space.f;
-  PhiCells cells = phi_cells();
-  for (uint bit = 0u; bit < 32u; ++bit) {
-    uint first = first_shadowed_on(outward, phi_of_cell(cells, float(32u * word + bit) + 0.5));
-    if (first < k_alpha_count) grid[grid_word(first, j, word, k_alpha_count, k_words_per_ray)] |= 1u << bit;
+  uint k = gl_GlobalInvocationID.x;
+  if (k >= k_phi_count) return;
+  float phi = phi_of_cell(phi_cells(), float(k) + 0.5);
+  float sin_phi = sin(phi);
+  float cos_phi = cos(phi);
+  uint end = min((gl_GlobalInvocationID.y + 1u) * k_planes, k_theta_count);
+  for (uint j = gl_GlobalInvocationID.y * k_planes; j < end; ++j) {
+    float theta = theta_centre(space, j);
+    vec3 outward = cos(theta) * space.u + sin(theta) * space.f;
+    CubePoint point = cube_point(sin_phi * outward - cos_phi * space.axis);
+    float depth = texelFetch(shadow_map, ivec3(cube_texel(point.uv, view.shadow_map_size), point.face), 0).r;
+    float r = view.light_near / (max(depth, 1e-37) * point.depth);  // along the unit light ray
+    uint first = first_shadowed_cell(space, alpha_at(space, sin_phi, cos_phi, r), k_alpha_count);
+    first_shadowed[j * k_phi_count + k] = depth == 0.0 ? k_alpha_count : first;
   }
 }

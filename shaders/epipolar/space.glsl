@@ -22,6 +22,10 @@ struct EpipolarBlock {
   float alpha_min;   // α range of the grid [rad]
   vec3 f;            // where θ = π/2
   float alpha_step;  // width of a cell in α [rad]
+  float theta_middle;  // θ range of the grid: its middle, …
+  float theta_half;    // … and half its width, π for a full turn [rad]
+  float theta_step;    // width of a cell in θ [rad]
+  float padding;
 };
 
 // Angle of (x, y) from the x axis, in (−π, π]; 0 for (0, 0). As right as GLSL's atan(y, x), to 2e-7 of the result, but

@@ -43,7 +43,7 @@ VsvRay vsv_ray(ivec2 pixel) {
   ray.last_cell = uint(clamp(floor(ray.end), 0.0, float(k_phi_count) - 1.0));
   uint i = alpha_cell(space, ray.alpha, k_alpha_count);
   float theta = theta_of(space, direction);
-  uint j = theta_cell(theta, k_theta_count);
+  uint j = theta_cell(space, theta, k_theta_count);
   ray.texel = int((j * k_alpha_count + i) * k_texels_per_ray);
 
   // The bits are those of the row's own ray, at the centre of its cell. Where that ray meets the surface's plane before this one
@@ -57,7 +57,7 @@ VsvRay vsv_ray(ivec2 pixel) {
   if (!ray.is_open) {
     // The row's ray, to first order in what separates it from this one.
     float d_alpha = space.alpha_min + (float(i) + 0.5) * space.alpha_step - ray.alpha;
-    float d_theta = theta_centre(j, k_theta_count) - theta;
+    float d_theta = theta_centre(space, j) - theta - theta_turn(space, theta);
     vec3 outward = (direction - ray.angle.cosine * space.axis) / ray.angle.sine;
     vec3 row_direction = direction + d_alpha * (ray.angle.cosine * outward - ray.angle.sine * space.axis) +
                          d_theta * ray.angle.sine * cross(space.axis, outward);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "epipolar/mip_scan.h"
 #include "support/gpu_context.h"
 #include "support/random.h"
 
@@ -18,9 +19,8 @@ TEST_P(OrScanOf, RandomBitsEqualsTheScanOnTheCpu) {
   std::vector<std::uint32_t> bits(static_cast<std::size_t>(grid.bits().bytes()) / 4);
   for (std::uint32_t& word : bits)
     word = random.bits() & random.bits() & random.bits() & random.bits() & random.bits();
-  grid.bits().write(bits.data(), grid.bits().bytes());
+  const std::vector<std::uint32_t> unscanned = bits;
   grid.bind();
-  OrScan(n).run(grid);
   const auto words = static_cast<std::size_t>(n.phi / 32), alphas = static_cast<std::size_t>(n.alpha);
   for (std::size_t j = 0; j < static_cast<std::size_t>(n.theta); ++j) {
     for (std::size_t i = 1; i < alphas; ++i) {
@@ -29,13 +29,19 @@ TEST_P(OrScanOf, RandomBitsEqualsTheScanOnTheCpu) {
       }
     }
   }
+  grid.bits().write(unscanned.data(), grid.bits().bytes());
+  OrScan(n).run(grid);
+  EXPECT_EQ(grid.bits().read<std::uint32_t>(), bits);
+  grid.bits().write(unscanned.data(), grid.bits().bytes());
+  MipScan(context, grid).run(grid);
   EXPECT_EQ(grid.bits().read<std::uint32_t>(), bits);
   context.check();
 }
 
 INSTANTIATE_TEST_SUITE_P(Resolutions, OrScanOf,
                          testing::Values(Resolution{1, 1, 128}, Resolution{64, 64, 128},
-                                         Resolution{33, 17, 640}, Resolution{257, 129, 512}));
+                                         Resolution{33, 17, 640}, Resolution{3, 5, 256},
+                                         Resolution{5, 2, 128}, Resolution{257, 129, 512}));
 
 }  // namespace
 }  // namespace airlight::epipolar

@@ -40,7 +40,7 @@ inline std::vector<float> distances(const frame::FrameInputs& inputs) {
 }
 
 /// Builds a shadow volume whose cells in φ grow by `growth` (shaders/epipolar/grid.glsl).
-inline void build(const epipolar::ShadowVolume& volume, const frame::FrameInputs& inputs, float growth) {
+inline void build(epipolar::ShadowVolume& volume, const frame::FrameInputs& inputs, float growth) {
   volume.find_ranges(inputs);
   std::vector<float> range = volume.grid().phi_range().read<float>();
   range.at(1) = growth;

@@ -20,7 +20,9 @@ struct VsvSettings {
   epipolar::Resolution resolution{256, 1024, 512};
   media::VsvIntegral integral = media::VsvIntegral::table;
   int shadow_map = 1024;
-  epipolar::Scan scan = epipolar::Scan::column;
+  epipolar::Scan scan = epipolar::Scan::fused;
+  epipolar::Populate populate = epipolar::Populate::shadow_map;
+  epipolar::Ranges ranges = epipolar::Ranges::frame;
   media::PhiCells phi_cells = media::PhiCells::growing;
   bool surface_shadows = false;  ///< by the shadow map; else every surface is lit
 };
@@ -28,7 +30,12 @@ struct VsvSettings {
 inline frame::FrameImages render_vsv(const scene::Geometry& geometry, const scene::View& view,
                                      const VsvSettings& settings = {}) {
   frame::Frame frame(gpu_context(), geometry, settings.shadow_map);
-  media::Vsv vsv(gpu_context(), settings.resolution, settings.integral, settings.scan, settings.phi_cells);
+  media::Vsv vsv(gpu_context(),
+                 {.resolution = settings.resolution,
+                  .populate = settings.populate,
+                  .scan = settings.scan,
+                  .ranges = settings.ranges},
+                 settings.integral, settings.phi_cells);
   frame::NoShadow no_shadow;
   surface_shadows::ShadowMapLookup lookup;
   gpu::StageTimer timer(nullptr);

@@ -52,6 +52,9 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   space.f = cross(l, space.u);
   space.alpha_min = 0.3f;
   space.alpha_step = 0.005f;
+  space.theta_middle = 0.5f;
+  space.theta_half = 3.0f;
+  space.theta_step = 6.0f / 333.0f;
 
   MediumBlock medium;
   medium.sigma_s = vec3(0.1f, 0.2f, 0.3f);
@@ -97,8 +100,8 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   put(outputs, at, path_length(space, complement, phi));  // 14
   put(outputs, at, angle_order(abs(t * ray.x), t * ray.y));
   put(outputs, at, angle_from_order(0.6f * alpha));
-  put(outputs, at, theta_centre(uint(100.0f * alpha), 333u));
-  put(outputs, at, float(theta_cell(theta, 333u)));  // 18
+  put(outputs, at, theta_centre(space, uint(100.0f * alpha)));
+  put(outputs, at, float(theta_cell(space, theta, 333u)));  // 18
   put(outputs, at, float(alpha_cell(space, alpha, 512u)));
   put(outputs, at, float(first_shadowed_cell(space, alpha, 512u)));
   put(outputs, at, float(grid_word(uint(100.0f * alpha), uint(100.0f * phi), 3u, 512u, 16u)));

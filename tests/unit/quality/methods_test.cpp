@@ -25,28 +25,28 @@ std::string complaint(std::string_view list) {
 
 TEST(MethodSpec, OfOneWordTakesTheCommonSettings) {
   Settings common;
-  common.resolution.alpha = 100;
+  common.volume.resolution.alpha = 100;
   common.integral = media::VsvIntegral::riemann;
   const std::vector<VolumeChoice> choices = parse_volumes("vsv", common);
   ASSERT_EQ(choices.size(), 1u);
   EXPECT_EQ(choices[0].spec, "vsv");
   EXPECT_EQ(choices[0].method->name, "vsv");
-  EXPECT_EQ(choices[0].settings.resolution.alpha, 100);
+  EXPECT_EQ(choices[0].settings.volume.resolution.alpha, 100);
   EXPECT_EQ(choices[0].settings.integral, media::VsvIntegral::riemann);
 }
 
 TEST(MethodSpec, OwnKeysOverrideTheCommonSettings) {
   Settings common;
-  common.resolution = {100, 200, 256};
+  common.volume.resolution = {100, 200, 256};
   const std::vector<VolumeChoice> choices = parse_volumes(
       "vsv:alpha=7:phi=128,vsv:integral=riemann:scan=fused:phi-cells=equal:populate=shadow-map,"
       "reference:samples=33,reference-march:steps=44:rays=single,none",
       common);
   ASSERT_EQ(choices.size(), 5u);
-  EXPECT_EQ(choices[0].settings.resolution, (epipolar::Resolution{7, 200, 128}));
-  EXPECT_EQ(choices[1].settings.resolution, common.resolution);
+  EXPECT_EQ(choices[0].settings.volume.resolution, (epipolar::Resolution{7, 200, 128}));
+  EXPECT_EQ(choices[1].settings.volume.resolution, common.volume.resolution);
   EXPECT_EQ(choices[1].settings.integral, media::VsvIntegral::riemann);
-  EXPECT_EQ(choices[1].settings.scan, epipolar::Scan::fused);
+  EXPECT_EQ(choices[1].settings.volume.scan, epipolar::Scan::fused);
   EXPECT_EQ(choices[1].settings.phi_cells, media::PhiCells::equal);
   EXPECT_EQ(choices[2].settings.samples, 33);
   EXPECT_EQ(choices[3].settings.steps, 44);
@@ -67,7 +67,7 @@ TEST(MethodSpec, MistakesAreNamedWithWhatIsValid) {
   EXPECT_THAT(complaint("vsv:alpha=99999999999"), HasSubstr("'99999999999'"));
   EXPECT_THAT(complaint("vsv:phi=100"), HasSubstr("multiple of 128"));
   EXPECT_THAT(complaint("vsv:theta=auto"), HasSubstr("not built yet"));
-  EXPECT_THAT(complaint("vsv:populate=conservative"), HasSubstr("not built yet"));
+  EXPECT_THAT(complaint("vsv:populate=screen-space"), HasSubstr("not built yet"));
   EXPECT_THAT(complaint("vsv:integral=sum"), testing::AllOf(HasSubstr("unknown"), HasSubstr("riemann")));
   EXPECT_THAT(complaint("none:alpha=4"), HasSubstr("it has none"));
   EXPECT_THAT(complaint("vsv,vsv"), HasSubstr("twice"));
