@@ -6,8 +6,8 @@
 // each a group or more.
 layout(local_size_x = 64) in;
 
-const uint k_few = 4u;
-const uint k_many = 256u;
+const uint k_few = 64u;
+const uint k_many = 512u;
 
 void main() {
   uint triangle = gl_GlobalInvocationID.x;
