@@ -1,10 +1,8 @@
 #pragma once
 
-#include <optional>
-
 #include "epipolar/grid.h"
+#include "epipolar/triangle_queue.h"
 #include "frame/scene_buffers.h"
-#include "gpu/program.h"
 
 namespace airlight::epipolar {
 
@@ -20,12 +18,10 @@ class PopulateConservative {
   explicit PopulateConservative(const Resolution& resolution);
 
   /// Overwrites `grid.first_shadowed()`. The view's block and the grid are bound.
-  /// @throws scene::Error (driver) when the scene has more triangles than one dispatch may have.
   void run(const Grid& grid, const frame::SceneBuffers& scene);
 
  private:
-  gpu::Program few_, many_, most_;
-  gpu::Buffer queue_;
+  TriangleQueue triangles_;
 };
 
 }  // namespace airlight::epipolar

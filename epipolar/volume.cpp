@@ -1,17 +1,35 @@
 #include "epipolar/volume.h"
 
 #include <bit>
+#include <utility>
+
+#include "scene/error.h"
 
 #include "spirv/epipolar/phi_range_comp.h"
 #include "spirv/epipolar/scatter_comp.h"
 
 namespace airlight::epipolar {
 
+Scan scan_of(const VolumeSettings& settings) {
+  const Scan fastest = settings.populate == Populate::screen_space ? Scan::column : Scan::fused;
+  return settings.scan.value_or(fastest);
+}
+
+void validate(const VolumeSettings& settings) {
+  validate(settings.resolution);
+  if (settings.populate == Populate::screen_space && scan_of(settings) == Scan::fused) {
+    throw scene::Error(scene::ExitCode::usage, "scan=fused",
+                       "the screen-space voxelization sets bits, and this scan reads none",
+                       "use column or multi-pass");
+  }
+}
+
 ShadowVolume::ShadowVolume(const gpu::Context& context, const VolumeSettings& settings)
     : settings_(settings),
       grid_(context, settings.resolution),
       phi_range_(gpu::Program::compute(k_phi_range_comp)),
       scatter_(gpu::Program::compute(k_scatter_comp, resolution_constants(settings.resolution))) {
+  validate(settings);
   switch (settings.populate) {
     case Populate::shadow_map:
       populate_shadow_map_.emplace(settings.resolution);
@@ -19,8 +37,11 @@ ShadowVolume::ShadowVolume(const gpu::Context& context, const VolumeSettings& se
     case Populate::conservative:
       populate_conservative_.emplace(settings.resolution);
       break;
+    case Populate::screen_space:
+      populate_screen_space_.emplace(context, grid_);
+      break;
   }
-  switch (settings.scan) {
+  switch (scan_of(settings)) {
     case Scan::fused:
       fused_scan_.emplace(settings.resolution);
       break;
@@ -34,7 +55,12 @@ ShadowVolume::ShadowVolume(const gpu::Context& context, const VolumeSettings& se
 }
 
 shaders::EpipolarBlock ShadowVolume::find_ranges(const frame::FrameInputs& inputs) const {
-  const shaders::EpipolarBlock block = epipolar_block(inputs.view, settings_.resolution, settings_.ranges);
+  shaders::EpipolarBlock block = epipolar_block(inputs.view, settings_.resolution, settings_.ranges);
+  if (populate_screen_space_) {
+    // It finds occluders on the grid's own view rays, those nearer the axis than the image included.
+    const float count = static_cast<float>(settings_.resolution.alpha);
+    block.alpha_step += std::exchange(block.alpha_min, 0.0f) / count;
+  }
   inputs.timer.time("ranges", [&] {
     grid_.block().write(&block, sizeof block);
     grid_.phi_range().clear();
@@ -51,26 +77,18 @@ shaders::EpipolarBlock ShadowVolume::find_ranges(const frame::FrameInputs& input
   return block;
 }
 
-void ShadowVolume::populate(const frame::FrameInputs& inputs) {
+void ShadowVolume::fill_unscanned(const frame::FrameInputs& inputs, bool with_bits) {
+  if (populate_screen_space_) populate_screen_space_->run(inputs.context, grid_, inputs.scene);
   if (populate_shadow_map_) populate_shadow_map_->run(grid_, *inputs.shadow_map);
   if (populate_conservative_) populate_conservative_->run(grid_, inputs.scene);
-}
-
-void ShadowVolume::scatter() const {
-  grid_.bits().clear();
-  dispatch_planes(scatter_, grid_, settings_.resolution.phi / 32, {16, 4});
-}
-
-void ShadowVolume::fill_unscanned(const frame::FrameInputs& inputs) {
-  populate(inputs);
-  scatter();
+  if (with_bits && !populate_screen_space_) {
+    grid_.bits().clear();
+    dispatch_planes(scatter_, grid_, settings_.resolution.phi / 32, {16, 4});
+  }
 }
 
 void ShadowVolume::fill(const frame::FrameInputs& inputs) {
-  inputs.timer.time("populate", [&] {
-    populate(inputs);
-    if (!fused_scan_) scatter();
-  });
+  inputs.timer.time("populate", [&] { fill_unscanned(inputs, !fused_scan_); });
   inputs.timer.time("scan", [&] {
     if (fused_scan_) fused_scan_->run(grid_);
     if (or_scan_) or_scan_->run(grid_);
@@ -81,6 +99,7 @@ void ShadowVolume::fill(const frame::FrameInputs& inputs) {
 std::map<std::string, std::int64_t> ShadowVolume::bytes() const {
   std::map<std::string, std::int64_t> bytes = {{"grid", grid_.bits().bytes()},
                                                {"light_rays", grid_.first_shadowed().bytes()}};
+  if (populate_screen_space_) bytes["crossings"] = populate_screen_space_->bytes();
   if (mip_scan_) bytes["mip_chain"] = mip_scan_->bytes();
   return bytes;
 }

@@ -8,6 +8,7 @@
 #include "epipolar/mip_scan.h"
 #include "epipolar/or_scan.h"
 #include "epipolar/populate_conservative.h"
+#include "epipolar/populate_screen_space.h"
 #include "epipolar/populate_shadow_map.h"
 #include "epipolar/space.h"
 #include "frame/methods.h"
@@ -18,11 +19,12 @@ namespace airlight::epipolar {
 enum class Populate {
   shadow_map,    ///< PopulateShadowMap
   conservative,  ///< PopulateConservative
+  screen_space,  ///< PopulateScreenSpace
 };
 
 /// How the grid is scanned.
 enum class Scan {
-  fused,       ///< FusedScan: bits are scattered and scanned in one pass
+  fused,       ///< FusedScan: bits are scattered and scanned in one pass; not for Populate::screen_space
   column,      ///< bits are scattered, then OrScan
   multi_pass,  ///< bits are scattered, then MipScan
 };
@@ -31,9 +33,15 @@ enum class Scan {
 struct VolumeSettings {
   Resolution resolution;
   Populate populate = Populate::shadow_map;
-  Scan scan = Scan::fused;
+  std::optional<Scan> scan = {};  ///< the fastest if none
   Ranges ranges = Ranges::frame;
 };
+
+/// The scan that the settings stand for.
+Scan scan_of(const VolumeSettings& settings);
+
+/// @throws scene::Error (usage) when the settings contradict each other.
+void validate(const VolumeSettings& settings);
 
 /// The voxelized shadow volume of a frame: ranges → populate → scan. Afterwards the bit of voxel (α_i, θ_j,
 /// φ_k) says whether it is in shadow. Based on: Wyman, "Voxelized Shadow Volumes", HPG 2011, section 2.2.
@@ -50,21 +58,21 @@ class ShadowVolume {
   /// Populates and scans; the grid is bound. Times `populate` and `scan`.
   void fill(const frame::FrameInputs& inputs);
 
-  /// The same without the scan: the bits of the first voxel in shadow on each light ray.
-  void fill_unscanned(const frame::FrameInputs& inputs);
+  /// The same without the scan: the bits that it would start from.
+  void fill_unscanned(const frame::FrameInputs& inputs) { fill_unscanned(inputs, true); }
 
   const Grid& grid() const { return grid_; }
   std::map<std::string, std::int64_t> bytes() const;  ///< memory on the GPU, by name
 
  private:
-  void populate(const frame::FrameInputs& inputs);
-  void scatter() const;
+  void fill_unscanned(const frame::FrameInputs& inputs, bool with_bits);
 
   VolumeSettings settings_;
   Grid grid_;
   gpu::Program phi_range_, scatter_;
   std::optional<PopulateShadowMap> populate_shadow_map_;
   std::optional<PopulateConservative> populate_conservative_;
+  std::optional<PopulateScreenSpace> populate_screen_space_;
   std::optional<FusedScan> fused_scan_;
   std::optional<OrScan> or_scan_;
   std::optional<MipScan> mip_scan_;

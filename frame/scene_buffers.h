@@ -25,6 +25,7 @@ class SceneBuffers {
   /// See frame::distance_to_geometry.
   double distance_to(glm::dvec3 point) const;
 
+  const scene::Geometry& geometry() const { return *geometry_; }
   std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(clusters_.order.size()); }
   std::int64_t bytes() const;
 

@@ -39,8 +39,7 @@ std::size_t parse_word(const std::string& where, std::string_view value, const W
 
 constexpr Words<2> k_integrals = {"table", "riemann"};
 constexpr Words<1> k_integrals_planned = {"factored"};
-constexpr Words<2> k_populates = {"shadow-map", "conservative"};
-constexpr Words<1> k_populates_planned = {"screen-space"};
+constexpr Words<3> k_populates = {"shadow-map", "conservative", "screen-space"};
 constexpr Words<3> k_scans = {"fused", "column", "multi-pass"};
 constexpr Words<3> k_ranges = {"frame", "alpha-phi", "full"};
 constexpr Words<2> k_phi_cells = {"growing", "equal"};
@@ -72,25 +71,28 @@ const std::vector<Key>& keys() {
        [](const Settings& settings) -> Value {
          return std::string(k_integrals[static_cast<std::size_t>(settings.integral)]);
        }},
-      {"populate", "what fills the grid: shadow-map (default) or conservative (voxelized triangles)",
+      {"populate",
+       "what fills the grid: shadow-map (default), conservative (every voxel that a triangle touches) or "
+       "screen-space (the inside of watertight parts)",
        [](Settings& settings, const std::string& where, std::string_view value) {
          settings.volume.populate =
-             static_cast<epipolar::Populate>(parse_word(where, value, k_populates, k_populates_planned));
+             static_cast<epipolar::Populate>(parse_word(where, value, k_populates, {}));
        },
        [](const Settings& settings) -> Value {
          return std::string(k_populates[static_cast<std::size_t>(settings.volume.populate)]);
        }},
       {"scan",
-       "how shadow is drawn out along light rays: fused (default: one pass that only writes), column (one "
-       "pass over set bits) or multi-pass (the paper's)",
+       "how shadow is drawn out along light rays: fused (one pass that only writes; default but for "
+       "screen-space), column (one pass over set bits) or multi-pass (the paper's)",
        [](Settings& settings, const std::string& where, std::string_view value) {
          settings.volume.scan = static_cast<epipolar::Scan>(parse_word(where, value, k_scans, {}));
        },
        [](const Settings& settings) -> Value {
-         return std::string(k_scans[static_cast<std::size_t>(settings.volume.scan)]);
+         return std::string(k_scans[static_cast<std::size_t>(epipolar::scan_of(settings.volume))]);
        }},
       {"ranges",
-       "angles that the grid covers: frame (default: what is seen), alpha-phi (the paper's: all theta) or full",
+       "angles that the grid covers: frame (default: what is seen), alpha-phi (the paper's: all theta) or "
+       "full",
        [](Settings& settings, const std::string& where, std::string_view value) {
          settings.volume.ranges = static_cast<epipolar::Ranges>(parse_word(where, value, k_ranges, {}));
        },
@@ -305,7 +307,10 @@ std::span<const SurfaceMethod> surface_methods() {
 }
 
 std::vector<VolumeChoice> parse_volumes(std::string_view list, const Settings& common) {
-  return parse_choices("--volume", list, common, volume_methods());
+  std::vector<VolumeChoice> choices = parse_choices("--volume", list, common, volume_methods());
+  for (const VolumeChoice& choice : choices)
+    if (choice.method->name == "vsv") epipolar::validate(choice.settings.volume);
+  return choices;
 }
 
 std::vector<SurfaceChoice> parse_surfaces(std::string_view list, const Settings& common) {

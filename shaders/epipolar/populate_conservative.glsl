@@ -4,24 +4,9 @@
 #include "epipolar/resolution.glsl"
 #include "epipolar/phi_range.glsl"
 
-layout(std140, binding = 0) uniform ViewUniform { ViewBlock view; };
-layout(std140, binding = 1) uniform EpipolarUniform { EpipolarBlock space; };
-layout(binding = 8) uniform samplerBuffer positions;   // vec3, world space
-layout(binding = 9) uniform usamplerBuffer triangles;  // uvec3, indices of positions
+#include "epipolar/triangle_queue.glsl"
+
 layout(std430, binding = 7) buffer FirstShadowed { uint first_shadowed[]; };
-
-// Triangles that touch many slabs, left by the first pass for the second: `many`, from the front, some hundreds of slabs at
-// most, `most`, from the back, more.
-layout(std430, binding = 8) buffer Queue {
-  uvec3 many_groups;  // of an indirect dispatch: k_row × rows × 1 groups, one a triangle
-  uint many_count;
-  uvec3 most_groups;
-  uint most_count;
-  uint triangle_count;
-  uint queue[];
-};
-
-const uint k_row = 256u;
 
 VoxelTriangle fetch_triangle(uint index) {
   uvec3 corners = texelFetch(triangles, int(index)).xyz;

@@ -230,7 +230,6 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{{"--volume", "vsv,none"}, "one method"}, Misuse{{"--volume", ""}, "--volume"},
         Misuse{{"--volume", "vsv:integral=sum"}, "riemann"}, Misuse{{"--volume", "vsv:shade=1"}, "integral"},
         Misuse{{"--integral", "factored"}, "not built yet"},
-        Misuse{{"--populate", "screen-space"}, "not built yet"},
         Misuse{{"--alpha", "auto"}, "not built yet"}));
 
 using BadFile = CommandLine;

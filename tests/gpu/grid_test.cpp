@@ -99,7 +99,7 @@ TEST(Grid, RefusesCountsThatCannotBe) {
       EXPECT_EQ(error.exit_code, scene::ExitCode::usage);
     }
   }
-  EXPECT_NO_THROW(validate({1, 1, 128}));
+  EXPECT_NO_THROW(validate(Resolution{1, 1, 128}));
 }
 
 constexpr float k_growth = 1.5f;

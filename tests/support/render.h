@@ -20,7 +20,7 @@ struct VsvSettings {
   epipolar::Resolution resolution{256, 1024, 512};
   media::VsvIntegral integral = media::VsvIntegral::table;
   int shadow_map = 1024;
-  epipolar::Scan scan = epipolar::Scan::fused;
+  std::optional<epipolar::Scan> scan = {};
   epipolar::Populate populate = epipolar::Populate::shadow_map;
   epipolar::Ranges ranges = epipolar::Ranges::frame;
   media::PhiCells phi_cells = media::PhiCells::growing;

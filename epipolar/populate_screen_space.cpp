@@ -1,0 +1,101 @@
+#include "epipolar/populate_screen_space.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "scene/components.h"
+
+#include "spirv/epipolar/populate_screen_space_comp.h"
+#include "spirv/epipolar/populate_screen_space_queue_comp.h"
+#include "spirv/epipolar/screen_space_resolve_comp.h"
+
+namespace airlight::epipolar {
+namespace {
+
+bool touch(const scene::Box& a, const scene::Box& b) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (a.lower[axis] > b.upper[axis] || b.lower[axis] > a.upper[axis]) return false;
+  return true;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> deal_apart(const std::vector<scene::Box>& boxes) {
+  std::vector<std::uint32_t> order(boxes.size()), group(boxes.size(), 0), open;
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return boxes[a].lower.x < boxes[b].lower.x; });
+  std::vector<bool> is_taken;
+  for (const std::uint32_t box : order) {
+    // Sweeping along x, a box that ends before this one starts touches none of the following.
+    std::erase_if(open, [&](std::uint32_t other) { return boxes[other].upper.x < boxes[box].lower.x; });
+    is_taken.assign(is_taken.size(), false);
+    for (const std::uint32_t other : open)
+      if (touch(boxes[box], boxes[other])) is_taken[group[other]] = true;
+    const auto free = std::find(is_taken.begin(), is_taken.end(), false);
+    group[box] = static_cast<std::uint32_t>(free - is_taken.begin());
+    if (free == is_taken.end()) is_taken.push_back(true);
+    open.push_back(box);
+  }
+  return group;
+}
+
+PopulateScreenSpace::PopulateScreenSpace(const gpu::Context& context, const Grid& grid)
+    : crossings_(grid.resolution(), k_populate_screen_space_comp, k_populate_screen_space_queue_comp),
+      resolve_(gpu::Program::compute(k_screen_space_resolve_comp, resolution_constants(grid.resolution()))) {
+  const Resolution& n = grid.resolution();
+  int planes = 0;
+  for (const Window& window : grid.windows()) planes = std::max(planes, window.planes);
+  flips_ = gpu::Buffer(std::int64_t{n.alpha} * planes * n.phi / 8);
+  flip_texels_ = {context, flips_, gpu::Format::rgba32ui, "the crossings of the screen-space voxelization"};
+}
+
+void PopulateScreenSpace::load(const gpu::Context& context, const scene::Geometry& geometry) {
+  const scene::Components components = scene::find_components(geometry);
+  std::vector<scene::Box> boxes(components.count);
+  for (std::size_t t = 0; t < geometry.triangles.size(); ++t) {
+    const glm::uvec3 triangle = geometry.triangles[t];
+    for (const glm::uint corner : {triangle.x, triangle.y, triangle.z})
+      boxes[components.of_triangle[t]].include(geometry.positions[corner]);
+  }
+  const std::vector<std::uint32_t> pass_of_component = deal_apart(boxes);
+  const auto pass_of = [&](std::uint32_t triangle) {
+    return pass_of_component[components.of_triangle[triangle]];
+  };
+
+  std::vector<std::uint32_t> order(geometry.triangles.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return pass_of(a) < pass_of(b); });
+  std::vector<glm::uvec3> triangles;
+  passes_.clear();
+  for (const std::uint32_t triangle : order) {
+    if (pass_of(triangle) == passes_.size())
+      passes_.push_back({static_cast<std::uint32_t>(triangles.size()), 0});
+    ++passes_.back().count;
+    triangles.push_back(geometry.triangles[triangle]);
+  }
+  triangles_ = gpu::Buffer::from(std::span<const glm::uvec3>(triangles));
+  triangle_texels_ = {context, triangles_, gpu::Format::rgb32ui, "the model's triangles"};
+  geometry_ = &geometry;
+}
+
+void PopulateScreenSpace::run(const gpu::Context& context, const Grid& grid,
+                              const frame::SceneBuffers& scene) {
+  if (geometry_ != &scene.geometry()) load(context, scene.geometry());
+  grid.bits().clear();
+  scene.bind_samplers();
+  triangle_texels_.bind_sampler(9);
+  flips_.bind_storage(9);
+  flip_texels_.bind_sampler(15);
+  for (const Window& window : grid.windows()) {
+    grid.begin_pass(window);
+    for (const Pass& pass : passes_) {
+      flips_.clear();
+      crossings_.run(pass.first, pass.count);
+      resolve_.dispatch({grid.resolution().alpha, window.planes, 1}, {64, 1, 1});
+    }
+  }
+}
+
+}  // namespace airlight::epipolar

@@ -1,0 +1,39 @@
+#include "epipolar/triangle_queue.h"
+
+#include <cstddef>
+
+namespace airlight::epipolar {
+namespace {
+
+/// The head of the queue's storage buffer (std430).
+struct QueueHead {
+  std::uint32_t many_groups[3], many_count, most_groups[3], most_count, first_triangle, triangle_count;
+};
+
+gpu::Program load_queue(const Resolution& resolution, std::span<const std::uint32_t> spirv,
+                        std::uint32_t from_back) {
+  const auto grid = resolution_constants(resolution);
+  return gpu::Program::compute(spirv, std::array{grid[0], grid[1], grid[2], gpu::Constant(3, from_back)});
+}
+
+}  // namespace
+
+TriangleQueue::TriangleQueue(const Resolution& resolution, std::span<const std::uint32_t> few,
+                             std::span<const std::uint32_t> queue)
+    : few_(gpu::Program::compute(few, resolution_constants(resolution))),
+      many_(load_queue(resolution, queue, 0)),
+      most_(load_queue(resolution, queue, 1)) {}
+
+void TriangleQueue::run(std::uint32_t first, std::uint32_t count) {
+  constexpr std::uint32_t k_row = 256, k_groups_of_most = 16;
+  const auto bytes = static_cast<std::int64_t>(sizeof(QueueHead) + 4 * std::size_t{count});
+  if (queue_.bytes() < bytes) queue_ = gpu::Buffer(bytes);
+  const QueueHead head = {{k_row, 0, 1}, 0, {k_row, 0, k_groups_of_most}, 0, first, count};
+  queue_.write(&head, sizeof head);
+  queue_.bind_storage(8);
+  few_.dispatch({count, 1, 1}, {64, 1, 1});
+  many_.dispatch_indirect(queue_, offsetof(QueueHead, many_groups));
+  most_.dispatch_indirect(queue_, offsetof(QueueHead, most_groups));
+}
+
+}  // namespace airlight::epipolar

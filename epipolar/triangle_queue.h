@@ -1,0 +1,24 @@
+#pragma once
+
+#include "epipolar/grid.h"
+#include "gpu/program.h"
+
+namespace airlight::epipolar {
+
+/// Runs a compute shader over triangles that differ much in size: one invocation a small triangle, one work
+/// group or sixteen a large one (shaders/epipolar/triangle_queue.glsl).
+class TriangleQueue {
+ public:
+  /// @param few, queue the entry points of the two passes
+  TriangleQueue(const Resolution& resolution, std::span<const std::uint32_t> few,
+                std::span<const std::uint32_t> queue);
+
+  /// Triangles `first` to `first` + `count` − 1 of the bound ones.
+  void run(std::uint32_t first, std::uint32_t count);
+
+ private:
+  gpu::Program few_, many_, most_;
+  gpu::Buffer queue_;
+};
+
+}  // namespace airlight::epipolar

@@ -1,0 +1,122 @@
+// What the two passes of the screen-space voxelization share. GLSL only.
+//
+// Seen from the eye, (α, θ) is a screen whose pixels are the rows of the grid, each with a view ray of its own. A surface that
+// the ray crosses turns inside to outside for all that lies before it, that is, flips the bits up to the crossing. Only the
+// last of those bits is flipped here; screen_space_resolve.comp flips the others.
+//
+// A crossing must be found by exactly one of the triangles that meet at an edge. Which side of an edge a ray passes is
+// therefore decided from the edge's two corners alone, taken in an order that does not depend on the triangle.
+#include "frame/view.glsl"
+#include "epipolar/conservative.glsl"
+#include "epipolar/resolution.glsl"
+#include "epipolar/window.glsl"
+#include "epipolar/phi_range.glsl"
+#include "epipolar/triangle_queue.glsl"
+
+layout(std430, binding = 9) buffer Flips { uint flips[]; };  // as the grid's window, by words
+
+vec3 corner(uint index) {
+  vec3 p = eye_relative(view, texelFetch(positions, int(index)).xyz);
+  precise vec3 q = vec3(dot(p, space.u), dot(p, space.f), dot(p, space.axis));
+  return q;
+}
+
+struct Edge {
+  vec3 normal;      // of the plane through the eye and the edge
+  bool is_reversed; // the triangle goes along it against its order
+};
+
+Edge make_edge(vec3 a, vec3 b) {
+  Edge edge;
+  edge.is_reversed = a.x != b.x ? a.x > b.x : a.y != b.y ? a.y > b.y : a.z > b.z;
+  vec3 p = edge.is_reversed ? b : a;
+  vec3 q = edge.is_reversed ? a : b;
+  precise vec3 normal = p.yzx * q.zxy - p.zxy * q.yzx;
+  edge.normal = normal;
+  return edge;
+}
+
+bool is_left(Edge edge, vec3 ray) {
+  precise float side = edge.normal.x * ray.x + edge.normal.y * ray.y + edge.normal.z * ray.z;
+  return (side > 0.0) != edge.is_reversed;
+}
+
+struct ScreenTriangle {
+  vec3 a, b, c;  // coordinates along u, f and the axis, relative to the eye [m]
+  float slack;   // [m]
+  Edge ab, bc, ca;
+  SlabSpan planes;
+};
+
+ScreenTriangle fetch_triangle(uint index) {
+  uvec3 corners = texelFetch(triangles, int(index)).xyz;
+  ScreenTriangle t;
+  t.a = corner(corners.x);
+  t.b = corner(corners.y);
+  t.c = corner(corners.z);
+  t.slack = position_slack(space, t.a, t.b, t.c);
+  t.ab = make_edge(t.a, t.b);
+  t.bc = make_edge(t.b, t.c);
+  t.ca = make_edge(t.c, t.a);
+  t.planes = slabs_of_triangle(space, t.a.xy, t.b.xy, t.c.xy, t.slack, k_theta_count);
+  return t;
+}
+
+// Bounds of α where the triangle meets a half-plane; the first is larger than the second where it does not.
+vec2 alpha_bounds(ScreenTriangle t, float cosine, float sine) {
+  vec3 corners[4] = vec3[4](t.a, t.b, t.c, t.a);
+  vec2 bounds = vec2(4.0, -1.0);
+  for (int i = 0; i < 3; ++i) {
+    vec3 p = corners[i];
+    vec3 q = corners[i + 1];
+    float y_p = p.y * cosine - p.x * sine;
+    float y_q = q.y * cosine - q.x * sine;
+    // The part of the edge within the slack of the half-plane's plane.
+    vec2 range = clip(vec2(0.0, 1.0), t.slack - y_p, t.slack - y_q);
+    range = clip(range, t.slack + y_p, t.slack + y_q);
+    for (int end = 0; end < 2; ++end) {
+      vec3 point = p + (end == 0 ? range.x : range.y) * (q - p);
+      float x = point.x * cosine + point.y * sine;
+      if (range.x <= range.y) {
+        // A triangle that reaches beyond the axis crosses it, before the eye or behind.
+        float alpha = angle_of(x, point.z);
+        bounds = vec2(min(bounds.x, x > 0.0 ? alpha : 0.0), max(bounds.y, x > 0.0 ? alpha : k_pi));
+      }
+    }
+  }
+  return bounds;
+}
+
+// Flips a bit for each row of the triangle's `index`th plane whose view ray crosses it.
+void flip_in_plane(ScreenTriangle t, uint index) {
+  uint j = index < t.planes.count ? t.planes.first + index : t.planes.wrapped_first + (index - t.planes.count);
+  float theta = theta_centre(space, j);
+  float cosine = cos(theta);
+  float sine = sin(theta);
+  vec2 bounds = alpha_bounds(t, cosine, sine);
+  uint first = alpha_cell(space, bounds.x - space.alpha_step, k_alpha_count);
+  uint end = bounds.x > bounds.y ? 0u : alpha_cell(space, bounds.y + space.alpha_step, k_alpha_count) + 1u;
+  uint plane = j - window_first_plane;
+  if (j < window_first_plane || plane >= window_planes) end = 0u;
+  PhiCells cells = phi_cells();
+  for (uint i = first; i < end; ++i) {
+    float alpha = space.alpha_min + (float(i) + 0.5) * space.alpha_step;
+    EyeAngle angle;
+    angle.sine = sin(alpha);
+    angle.cosine = cos(alpha);
+    vec3 ray = vec3(angle.sine * cosine, angle.sine * sine, angle.cosine);
+    bool left = is_left(t.ab, ray);
+    vec3 normal = cross(t.b - t.a, t.c - t.a);
+    bool is_ahead = (dot(normal, t.a) > 0.0) == (dot(normal, ray) > 0.0);
+    if (left == is_left(t.bc, ray) && left == is_left(t.ca, ray) && is_ahead) {
+      float distance = ray_triangle_distance(ray, t.a, t.b, t.c);
+      // Cells whose centre lies before the crossing.
+      float before = ceil(cell_of_phi(cells, phi_at(space, angle, distance)) - 0.5);
+      uint count = uint(clamp(before, 0.0, cells.count));
+      if (count > 0u) {
+        uint bit = count - 1u;
+        atomicXor(flips[grid_word(i, plane, bit >> 5, k_alpha_count, k_words_per_ray)], 1u << (bit & 31u));
+      }
+    }
+  }
+}
