@@ -174,7 +174,7 @@ AirlightImage Reference::converged(int samples, const Progress& progress) const 
             missed[channel] = missed[channel - 1];
             continue;
           }
-          const FogQuadrature fog(ray, sigma_t[channel], medium.phase, medium.g);
+          const FogQuadrature fog(ray, sigma_t[channel], medium);
           runs.for_each_run(
               [&](double from, double to) { integral[channel] += fog.integral(ray.psi(from), ray.psi(to)); });
           runs.for_each_missed_run([&](double from, double to, bool lit) {

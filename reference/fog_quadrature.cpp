@@ -47,9 +47,12 @@ double gauss_legendre(const std::array<Node, Half>& rule, double from, double to
 
 }  // namespace
 
-FogQuadrature::FogQuadrature(const ViewRay& ray, double sigma_t, scene::PhaseFunction function, double g)
-    : function_(function),
-      g_(function == scene::PhaseFunction::henyey_greenstein ? g : 0.0),
+FogQuadrature::FogQuadrature(const ViewRay& ray, double sigma_t, const scene::Medium& medium)
+    : medium_(medium),
+      g_(medium.phase == scene::PhaseFunction::henyey_greenstein ||
+                 medium.phase == scene::PhaseFunction::hoffman_preetham
+             ? static_cast<double>(medium.g)
+             : 0.0),
       depth_scale_(sigma_t * ray.D * ray.sin_alpha),
       depth_offset_(sigma_t * ray.D * ray.cos_alpha),
       deepest_(sigma_t * ray.D + k_depth_range),
@@ -57,7 +60,7 @@ FogQuadrature::FogQuadrature(const ViewRay& ray, double sigma_t, scene::PhaseFun
 
 double FogQuadrature::integrand(double psi) const {
   const double optical_depth = depth_offset_ + depth_scale_ / std::tan(0.5 * psi);  // view_ray.h (3)
-  return std::exp(-optical_depth) * phase(function_, g_, -std::cos(psi));
+  return std::exp(-optical_depth) * phase(medium_, -std::cos(psi));
 }
 
 double FogQuadrature::panel_end(double psi, double optical_depth) const {

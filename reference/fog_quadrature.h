@@ -8,8 +8,9 @@ namespace airlight::reference {
 /// ∫ e^{−σ(t+r)} p(α+φ) dφ along one view ray, by Gauss–Legendre quadrature in double precision.
 class FogQuadrature {
  public:
-  /// @param sigma_t extinction coefficient σ = σ_s + σ_a [1/m]
-  FogQuadrature(const ViewRay& ray, double sigma_t, scene::PhaseFunction function, double g);
+  /// @param sigma_t extinction coefficient σ = σ_s + σ_a of one channel [1/m]
+  /// @param medium  for its phase function; kept by reference
+  FogQuadrature(const ViewRay& ray, double sigma_t, const scene::Medium& medium);
 
   /// The integral over ψ ∈ [`psi_to`, `psi_from`] [1/sr·rad], to a relative error below 1e-6 of the integral
   /// over the whole ray without shadow.
@@ -19,8 +20,8 @@ class FogQuadrature {
   double integrand(double psi) const;
   double panel_end(double psi, double optical_depth) const;
 
-  scene::PhaseFunction function_;
-  double g_;
+  const scene::Medium& medium_;
+  double g_;             ///< of the phase function's lobe; 0 without one
   double depth_scale_;   ///< σ D sin α
   double depth_offset_;  ///< σ D cos α: the optical depth of the light's path is offset + scale · cot(ψ/2)
   double deepest_;       ///< optical depth beyond which nothing is added

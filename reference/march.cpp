@@ -55,15 +55,14 @@ double sum_lit(const ViewRay& ray, const HalfAngles& half, std::uint32_t lit, do
     value[i] = (lit >> i & 1u) ? exp_of_nonpositive(-depth) : 0.0f;
   }
   if (medium.phase != scene::PhaseFunction::isotropic) {
-    const double g = medium.g;
     for (int i = 0; i < k_count; ++i) {
       const double cosine = half.sine[i] * half.sine[i] - half.cosine[i] * half.cosine[i];  // view_ray.h (4)
-      value[i] *= static_cast<float>(phase(medium.phase, g, cosine));
+      value[i] *= static_cast<float>(phase(medium, cosine));
     }
   }
   double sum = 0.0;
   for (int i = 0; i < k_count; ++i) sum += static_cast<double>(value[i]);
-  return medium.phase == scene::PhaseFunction::isotropic ? sum * phase(medium.phase, 0.0, 0.0) : sum;
+  return medium.phase == scene::PhaseFunction::isotropic ? sum * phase(medium, 0.0) : sum;
 }
 
 }  // namespace

@@ -208,6 +208,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Misuse{{"--intensity", "1e39"}, "--intensity"}, Misuse{{"--sigma-s", "nan"}, "--sigma-s"},
                     Misuse{{"--sigma-a=-0.1"}, "--sigma-a"}, Misuse{{"--g", "nan"}, "--g"},
                     Misuse{{"--phase", "henyey-greenstein", "--g", "1"}, "--g"},
+                    Misuse{{"--phase", "hoffman-preetham", "--rayleigh-weight", "1.1"}, "--rayleigh-weight"},
+                    Misuse{{"--phase", "hoffman-preetham", "--rayleigh-weight=-0.1"}, "--rayleigh-weight"},
+                    Misuse{{"--phase", "hoffman-preetham", "--rayleigh-weight", "nan"}, "--rayleigh-weight"},
                     Misuse{{"--g", "0.5"}, "henyey-greenstein"}, Misuse{{"--albedo", "1.5"}, "--albedo"},
                     Misuse{{"--exposure", "0"}, "--exposure"}, Misuse{{"--exposure", "inf"}, "--exposure"},
                     Misuse{{"--shadow-map", "0"}, "--shadow-map"},
@@ -225,7 +228,7 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{{"--eye", "0,0,1", "--target", "0,0,1"}, "eye and target"},
         Misuse{{"--up", "0,0,1"}, "parallel"}, Misuse{{"--light-position", "0,1,0"}, "--intensity"},
         Misuse{{"--light", "0", "--light-position", "0,1,0", "--intensity", "1"}, "--light"},
-        Misuse{{"--phase", "mie"}, "unknown"}, Misuse{{"--phase", "hoffman-preetham"}, "not built yet"},
+        Misuse{{"--phase", "mie"}, "unknown"}, Misuse{{"--rayleigh-weight", "0.5"}, "hoffman-preetham"},
         Misuse{{"--volume", "froxel"}, "reference-march"}, Misuse{{"--surface", "psv"}, "shadow-map"},
         Misuse{{"--volume", "vsv,none"}, "one method"}, Misuse{{"--volume", ""}, "--volume"},
         Misuse{{"--volume", "vsv:integral=sum"}, "riemann"}, Misuse{{"--volume", "vsv:shade=1"}, "integral"},
@@ -342,6 +345,23 @@ TEST_F(Render, KeepsItsConfigurationSoThatItCanBeRepeated) {
   EXPECT_EQ(render(words).channels, image.channels);
 }
 
+TEST_F(Render, HoffmanPreethamIsAMixOfTwoPhaseFunctions) {
+  const auto airlight = [&](const Words& words) {
+    const Image image = render(words);
+    return mean(image.channels.at("airlight.G"));
+  };
+  const double rayleigh = airlight({"--phase", "rayleigh"});
+  const double lobe = airlight({"--phase", "henyey-greenstein", "--g", "0.6"});
+  ASSERT_GT(std::abs(rayleigh / lobe - 1), 0.1);
+  const Words mix = {"--phase", "hoffman-preetham", "--g", "0.6"};
+  // Cells in φ grow with the phase function, and with them the bits differ a little.
+  EXPECT_NEAR(airlight(mix) / (0.5 * rayleigh + 0.5 * lobe), 1.0, 1e-2);
+  Words hazy = mix;
+  hazy.insert(hazy.end(), {"--rayleigh-weight", "0.1"});
+  EXPECT_NEAR(airlight(hazy) / (0.1 * rayleigh + 0.9 * lobe), 1.0, 1e-2);
+  EXPECT_EQ(quality::read_exr(file("image.exr")).metadata.at("airlight.rayleigh-weight"), "0.1");
+}
+
 TEST_F(Render, MethodsNoneMeanNoAirlightAndNoShadow) {
   const Image image = render({"--volume", "none", "--surface", "none"});
   EXPECT_EQ(mean(image.channels.at("airlight.G")), 0.0);
@@ -445,10 +465,11 @@ using Compare = CommandLine;
 
 TEST_F(Compare, ResultsFollowTheirSchema) {
   const Json schema = Json::parse(read_text(AIRLIGHT_SCHEMA));
-  const Json results = compare({"--volume",
-                                "none,vsv,vsv:integral=riemann,vsv:scan=fused:phi-cells=equal,reference,"
-                                "reference-march:steps=64,reference-march:steps=64:rays=single",
-                                "--surface", "none,shadow-map,reference"});
+  const Json results =
+      compare({"--volume",
+               "none,vsv,vsv:integral=riemann,vsv:scan=fused:phi-cells=equal,reference,"
+               "reference-march:steps=64,reference-march:steps=64:rays=single",
+               "--surface", "none,shadow-map,reference"});
   EXPECT_THAT(tests::schema_violations(results, schema), IsEmpty());
   EXPECT_EQ(results["runs"].size(), 21u);
 

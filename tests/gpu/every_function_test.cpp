@@ -60,6 +60,7 @@ constexpr Function k_functions[] = {
     {"phase isotropic", 1, k_single, 0},
     {"phase rayleigh", 1, k_single, 0},
     {"phase henyey-greenstein", 1, k_single, 0},
+    {"phase hoffman-preetham", 1, k_single, 0},
     {"airlight_integrand", 3, k_single, 2e-7},  // e^{−x}: a relative error of x is one of x times as much
     {"integrate_cell", 3, k_single, 2e-8},
     {"airlight_scale", 3, k_single, 0},
