@@ -11,6 +11,9 @@ namespace airlight::media {
 enum class VsvIntegral {
   table,    ///< between changes of visibility, from a table of the unshadowed integral: exact up to the bits
   riemann,  ///< the paper's sum over all samples (Eq. 5)
+  /// the unshadowed integral, from the table, times the lit fraction of the samples: the cheapest and the
+  /// least exact, for it does not ask where along the ray the shadow lies
+  factored,
 };
 
 /// How the range of φ is cut into samples.
@@ -20,7 +23,9 @@ enum class PhiCells {
 };
 
 /// `vsv`: airlight from an epipolar voxelized shadow volume.
-/// Based on: Wyman, "Voxelized Shadow Volumes", HPG 2011, sections 2 and 3.
+/// Based on: Wyman, "Voxelized Shadow Volumes", HPG 2011, sections 2 and 3. `factored`: Dobashi, Yamamoto and
+/// Nishita, "Interactive Rendering of Atmospheric Scattering Effects Using Graphics Hardware", 2002, as the
+/// paper uses it for its timings (end of its section 5).
 class Vsv : public frame::Airlight {
  public:
   /// @throws scene::Error as epipolar::Grid.

@@ -37,8 +37,7 @@ std::size_t parse_word(const std::string& where, std::string_view value, const W
               fmt::format("use {}", fmt::join(words, ", ")));
 }
 
-constexpr Words<2> k_integrals = {"table", "riemann"};
-constexpr Words<1> k_integrals_planned = {"factored"};
+constexpr Words<3> k_integrals = {"table", "riemann", "factored"};
 constexpr Words<1> k_populates = {"shadow-map"};
 constexpr Words<2> k_populates_planned = {"conservative", "screen-space"};
 constexpr Words<2> k_scans = {"fused", "column"};
@@ -63,10 +62,9 @@ void set_resolution(Settings& settings, const std::string& where, std::string_vi
 
 const std::vector<Key>& keys() {
   static const std::vector<Key> keys = {
-      {"integral", "how visibility becomes radiance: table (default) or riemann",
+      {"integral", "how visibility becomes radiance: table (default), riemann or factored",
        [](Settings& settings, const std::string& where, std::string_view value) {
-         settings.integral =
-             static_cast<media::VsvIntegral>(parse_word(where, value, k_integrals, k_integrals_planned));
+         settings.integral = static_cast<media::VsvIntegral>(parse_word(where, value, k_integrals, {}));
        },
        [](const Settings& settings) -> Value {
          return std::string(k_integrals[static_cast<std::size_t>(settings.integral)]);

@@ -232,7 +232,6 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{{"--volume", "froxel"}, "reference-march"}, Misuse{{"--surface", "psv"}, "shadow-map"},
         Misuse{{"--volume", "vsv,none"}, "one method"}, Misuse{{"--volume", ""}, "--volume"},
         Misuse{{"--volume", "vsv:integral=sum"}, "riemann"}, Misuse{{"--volume", "vsv:shade=1"}, "integral"},
-        Misuse{{"--integral", "factored"}, "not built yet"},
         Misuse{{"--populate", "conservative"}, "not built yet"},
         Misuse{{"--populate", "screen-space"}, "not built yet"},
         Misuse{{"--alpha", "auto"}, "not built yet"}));
@@ -467,7 +466,7 @@ TEST_F(Compare, ResultsFollowTheirSchema) {
   const Json schema = Json::parse(read_text(AIRLIGHT_SCHEMA));
   const Json results =
       compare({"--volume",
-               "none,vsv,vsv:integral=riemann,vsv:scan=fused:phi-cells=equal,reference,"
+               "none,vsv,vsv:integral=riemann,vsv:integral=factored:scan=fused:phi-cells=equal,reference,"
                "reference-march:steps=64,reference-march:steps=64:rays=single",
                "--surface", "none,shadow-map,reference"});
   EXPECT_THAT(tests::schema_violations(results, schema), IsEmpty());
