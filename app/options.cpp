@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "quality/compare.h"
+#include "quality/light_texture.h"
 #include "quality/numbers.h"
 #include "scene/builtin.h"
 #include "scene/error.h"
@@ -120,6 +121,9 @@ scene::PointLight choose_light(const Options& options, const scene::Scene& scene
     throw usage(options.scene, "it has no light", "give one with --light-position x,y,z --intensity r,g,b");
   }
   if (intensity) light.intensity = quality::parse_colour("--intensity", *intensity);
+  if (const auto texture = options.get("light-texture")) {
+    light.texture = std::make_shared<const scene::LightTexture>(quality::read_light_texture(*texture));
+  }
   return light;
 }
 
@@ -191,6 +195,10 @@ std::span<const OptionLine> common_options() {
         {"light", "NAME|N", "one of the scene's lights, by name or number from 0 (default: the first)"},
         {"light-position", "X,Y,Z", "where the light is [m]; needs --intensity"},
         {"intensity", "R,G,B", "radiant intensity of the light [W/sr]; one number means grey"},
+        {"light-texture", "FILE.exr",
+         "what the light radiates by direction, relative to its intensity: an equirectangular image, +Y at "
+         "the "
+         "top, +Z in the middle, +X to the left of it; for vsv it needs integral=riemann"},
         {"sigma-s", "R,G,B",
          "scattering coefficient [1/m]; one number means grey (default: the scene's, 0.1 for a file)"},
         {"sigma-a", "R,G,B",
@@ -254,6 +262,12 @@ quality::Settings make_settings(const Options& options) {
   settings.samples =
       quality::parse_count("--reference-samples", options.get("reference-samples").value_or("512"));
   return settings;
+}
+
+std::string default_volumes(const Options& options, std::string_view plain,
+                            std::string_view for_light_texture) {
+  const bool adapts = options.get("light-texture") && !options.get("integral");
+  return std::string(adapts ? for_light_texture : plain);
 }
 
 int shadow_map_size(const Options& options) {

@@ -3,7 +3,10 @@
 #include <array>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "media/medium.h"
+#include "scene/error.h"
 
 #include "spirv/media/phi_growth_comp.h"
 #include "spirv/media/vsv_riemann_comp.h"
@@ -55,18 +58,28 @@ void Vsv::load(const gpu::Context& context, const Variant& variant) {
     table_ = gpu::Buffer(std::int64_t{k_table_rows} * (resolution.phi + 1) * variant.channels * 8);
     table_texels_ = {context, table_, gpu::Format::rg32f, "the table integral"};
   } else {
-    integrate_ = gpu::Program::compute(k_vsv_riemann_comp, std::span(constants).first<4>());
+    integrate_ = gpu::Program::compute(
+        k_vsv_riemann_comp,
+        std::array{grid[0], grid[1], grid[2], constants[3], gpu::Constant(4, variant.light_textured)});
   }
   loaded_ = variant;
 }
 
+void Vsv::require_support(VsvIntegral integral, const scene::PointLight& light) {
+  if (!light.texture || integral == VsvIntegral::riemann) return;
+  throw scene::Error(scene::ExitCode::usage,
+                     fmt::format("vsv:integral={}", integral == VsvIntegral::table ? "table" : "factored"),
+                     "it cannot take a light texture", "use vsv:integral=riemann");
+}
+
 void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) {
+  require_support(integral_, inputs.view.light);
   shaders::MediumBlock block = medium_block(inputs.view);
   const bool is_grey = block.sigma_t.x == block.sigma_t.y && block.sigma_t.y == block.sigma_t.z;
   const epipolar::Resolution& resolution = volume_.grid().resolution();
   const shaders::EpipolarBlock space = volume_.find_ranges(inputs);
   load(inputs.context, {static_cast<std::uint32_t>(inputs.view.medium.phase), is_grey ? 1u : 3u,
-                        direct_cells(space, resolution)});
+                        direct_cells(space, resolution), inputs.light_texture != nullptr});
   inputs.timer.time("ranges", [&] {
     block.table_row_step =
         space.alpha_step * static_cast<float>(resolution.alpha) / static_cast<float>(k_table_rows - 1);
@@ -84,6 +97,7 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
   inputs.timer.time("integrate", [&] {
     inputs.surfaces.bind_sampler(0);
     if (integral_ != VsvIntegral::riemann) table_texels_.bind_sampler(13);
+    if (inputs.light_texture) inputs.light_texture->bind_sampler(14);
     radiance.bind_image(0);
     integrate_.dispatch({inputs.view.size, 1}, {8, 8, 1});
   });

@@ -33,15 +33,21 @@ class Vsv : public frame::Airlight {
       epipolar::Scan scan = epipolar::Scan::column, PhiCells phi_cells = PhiCells::growing);
 
   bool needs_shadow_map() const override { return true; }
+
+  /// @throws scene::Error (usage) where `require_support` does
   void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override;
   std::map<std::string, std::int64_t> bytes() const override;
+
+  /// @throws scene::Error (usage) for a light textured by direction, unless every sample is looked at: the
+  /// table depends on α and φ alone, and such a light on θ too
+  static void require_support(VsvIntegral integral, const scene::PointLight& light);
 
   const epipolar::ShadowVolume& volume() const { return volume_; }
 
  private:
   /// What the shaders are specialised for.
   struct Variant {
-    std::uint32_t phase, channels, direct;
+    std::uint32_t phase, channels, direct, light_textured;
     bool operator==(const Variant&) const = default;
   };
   void load(const gpu::Context& context, const Variant& variant);

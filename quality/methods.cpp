@@ -296,6 +296,12 @@ std::vector<SurfaceChoice> parse_surfaces(std::string_view list, const Settings&
   return parse_choices("--surface", list, common, surface_methods());
 }
 
+void require_support(std::span<const VolumeChoice> choices, const scene::View& view) {
+  for (const VolumeChoice& choice : choices) {
+    if (choice.method->name == "vsv") media::Vsv::require_support(choice.settings.integral, view.light);
+  }
+}
+
 SharedReference::SharedReference(const scene::Geometry& geometry, const scene::View& view, Progress progress)
     : geometry_(geometry), view_(view), progress_(std::move(progress)) {}
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/error.h"
+#include "scene/light_texture.h"
 
 namespace airlight::quality {
 namespace {
@@ -52,6 +53,7 @@ Json view_json(const scene::View& view) {
                  {"sigma_a", vector(view.medium.sigma_a)},
                  {"phase", phase_name(view.medium.phase)},
                  {"g", single(view.medium.g)}}}};
+  if (view.light.texture) json["light"]["texture"] = view.light.texture->name();
   if (view.medium.phase == scene::PhaseFunction::hoffman_preetham)
     json["medium"]["rayleigh_weight"] = single(view.medium.rayleigh_weight);
   return json;
@@ -159,6 +161,7 @@ std::map<std::string, std::string> view_options(const scene::View& view) {
                                                 {"sigma-a", text_of(view.medium.sigma_a)},
                                                 {"phase", phase_name(view.medium.phase)},
                                                 {"g", fmt::format("{}", view.medium.g)}};
+  if (view.light.texture) options["light-texture"] = view.light.texture->name();
   if (view.medium.phase == scene::PhaseFunction::hoffman_preetham)
     options["rayleigh-weight"] = fmt::format("{}", view.medium.rayleigh_weight);
   return options;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "reference/light_texture.h"
 #include "reference/view_ray.h"
 #include "scene/scene.h"
 
@@ -16,7 +17,12 @@ class FogQuadrature {
   /// over the whole ray without shadow.
   double integral(double psi_from, double psi_to) const;
 
+  /// The same with the light's texture under the integral, RGB, each of the same σ.
+  glm::dvec3 integral(double psi_from, double psi_to, const LightAlongRay& light) const;
+
  private:
+  template <class Value, class Integrand, class Longest>
+  Value sum_panels(double psi_from, double psi_to, const Integrand& f, const Longest& longest) const;
   double integrand(double psi) const;
   double panel_end(double psi, double optical_depth) const;
 

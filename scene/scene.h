@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -64,11 +65,15 @@ struct CameraFrame {
 /// inside (0°, 180°), a value is not finite, or the image has no pixels.
 CameraFrame camera_frame(const Camera& camera, glm::ivec2 image_size);
 
-/// A light that radiates alike in all directions from one point.
+class LightTexture;
+
+/// A light that radiates from one point: alike in all directions, or as its texture says.
 struct PointLight {
   std::string name;
   glm::dvec3 position{0.0};   ///< world space [m]
   glm::vec3 intensity{1.0f};  ///< radiant intensity, RGB [W/sr]; candela of a glTF file are read one to one
+  /// Multiplies `intensity` by direction; nullptr for none.
+  std::shared_ptr<const LightTexture> texture = nullptr;
 };
 
 /// `hoffman_preetham` mixes Rayleigh's function, of the air's molecules, with Henyey-Greenstein's, of haze.

@@ -184,7 +184,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Misuse{{"render", "cornell", "more", "-o", "x.exr"}, "more"},
                     Misuse{{"render", "shot.toml", "-o", "x.exr"}, "not built yet"},
                     Misuse{{"render", "mesh.ply", "-o", "x.exr"}, "not built yet"},
-                    Misuse{{"--debug"}, "--debug"}, Misuse{{"--light-texture", "x.exr"}, "--light-texture"},
+                    Misuse{{"--debug"}, "--debug"}, Misuse{{"--light-texture"}, "--light-texture"},
                     Misuse{{"--max-error", "1"}, "--max-error"}, Misuse{{"--frames", "3"}, "--frames"},
                     Misuse{{"--fov", "30", "--fov", "40"}, "--fov"},
                     Misuse{{"compare", "cornell", "--max-error=-1"}, "--max-error"},
@@ -421,6 +421,82 @@ TEST_F(Render, ExposureIsThatOfThePreviewAlone) {
   EXPECT_NE(read_text(file("image.png")), dark_preview);
   EXPECT_EQ(dark.channels, bright.channels);
   EXPECT_EQ(bright.metadata.at("airlight.exposure"), "10");
+}
+
+/// A light texture, green towards +X and red towards −X.
+class TexturedLight : public CommandLine {
+ protected:
+  void SetUp() override {
+    CommandLine::SetUp();
+    quality::write_exr(file("light.exr"),
+                       {.size = {4, 1},
+                        .channels = {{"R", {0, 0, 1, 1}}, {"G", {1, 1, 0, 0}}, {"B", {0, 0, 0, 0}}},
+                        .metadata = {}});
+  }
+};
+
+TEST_F(TexturedLight, ColoursTheImageInEveryMethodByDefault) {
+  const Image image = render({"--light-texture", "light.exr"});
+  EXPECT_EQ(image.metadata.at("airlight.light-texture"), "light.exr");
+  EXPECT_EQ(image.metadata.at("airlight.integral"), "riemann");
+  EXPECT_EQ(mean(image.channels.at("B")), 0.0);
+  // The light hangs in the middle of the room, and the camera looks along −Z: +X is to the right.
+  for (const char* channel : {"", "airlight."}) {
+    const auto sum = [&](const char* colour, bool right) {
+      double result = 0.0;
+      for (int i = 0; i < 32 * 32; ++i) {
+        if ((i % 32 >= 16) == right)
+          result += static_cast<double>(
+              image.channels.at(std::string(channel) + colour)[static_cast<std::size_t>(i)]);
+      }
+      return result;
+    };
+    EXPECT_GT(sum("G", true), 1.5 * sum("R", true));
+    EXPECT_GT(sum("R", false), 1.5 * sum("G", false));
+  }
+  for (const char* volume : {"reference", "reference-march"}) {
+    const Image other = render({"--light-texture", "light.exr", "--volume", volume});
+    EXPECT_NEAR(mean(other.channels.at("airlight.G")) / mean(image.channels.at("airlight.G")), 1.0, 0.02);
+  }
+}
+
+TEST_F(TexturedLight, IsComparedByTheMethodsThatCanTakeIt) {
+  const Json results = compare({"--light-texture", "light.exr"});
+  ASSERT_EQ(results["runs"].size(), 2u);
+  EXPECT_EQ(results["runs"][0]["volume"], "vsv:integral=riemann");
+  EXPECT_EQ(results["runs"][1]["volume"], "reference-march");
+  EXPECT_LT(results["runs"][0]["error"]["airlight"]["rrmse"], 0.1);
+  EXPECT_EQ(results["view"]["light"]["texture"], "light.exr");
+  EXPECT_THAT(tests::schema_violations(results, Json::parse(read_text(AIRLIGHT_SCHEMA))), IsEmpty());
+  EXPECT_THAT(read_text(file("out/report.html")), HasSubstr("textured by light.exr"));
+}
+
+TEST_F(TexturedLight, IsRefusedByTheOthersBeforeTheDriverIsWoken) {
+  for (const Words& words : {Words{"--volume", "vsv"},
+                             {"--volume", "vsv:integral=factored"},
+                             {"--integral", "table"},
+                             {"--integral", "factored"}}) {
+    // The driver would refuse this size.
+    Words all = {"render", "cornell", "-o", "x.exr", "--size", "1000000x8", "--light-texture", "light.exr"};
+    all.insert(all.end(), words.begin(), words.end());
+    const Result result = airlight(all);
+    expect_one_line_error(result, 2);
+    EXPECT_THAT(result.err, HasSubstr("integral=riemann"));
+    all[0] = "compare";
+    expect_one_line_error(airlight(all), 2);
+  }
+}
+
+TEST_F(TexturedLight, ThatCannotBeReadIsNamed) {
+  std::ofstream(file("text.exr")) << "no image";
+  quality::write_exr(file("grey.exr"), {.size = {1, 1}, .channels = {{"Y", {1}}}, .metadata = {}});
+  quality::write_exr(file("negative.exr"),
+                     {.size = {1, 1}, .channels = {{"R", {1}}, {"G", {-1}}, {"B", {1}}}, .metadata = {}});
+  for (const char* name : {"nosuch.exr", "text.exr", "grey.exr", "negative.exr"}) {
+    const Result result = airlight({"render", "cornell", "-o", "x.exr", "--light-texture", name});
+    expect_one_line_error(result, 3);
+    EXPECT_THAT(result.err, HasSubstr(name));
+  }
 }
 
 /// A file without camera and light, with one good triangle and one of no area.
