@@ -7,8 +7,8 @@
 // difference of two entries of the table, so a pixel costs as many look-ups as it sees changes, not samples.
 //
 // With k_factored, the factored visibility of Dobashi et al. 2002: the integral as if all of the ray were lit, times the lit
-// fraction of its samples. That takes one look-up a pixel, and does not ask where on the ray the shadow lies. Samples are cells,
-// each counted once: as cells are dense where light comes from, the fraction follows the light better than one over equal cells.
+// fraction of its samples. That takes one look-up a pixel, and does not ask where on the ray the shadow lies. The samples of the
+// paper are equal steps of φ; so that the result does not depend on how cells grow, the bits of a word weigh what it spans.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 13) uniform samplerBuffer table;  // vec2
 
@@ -56,7 +56,9 @@ void main() {
     float blend = row - floor(row);
     vec2 sum[3] = vec2[3](vec2(0.0), vec2(0.0), vec2(0.0));
     float sign = 1.0;  // + where light ends, − where it begins
-    int lit_cells = 0;
+    float lit_range = 0.0;  // of φ, in any unit
+    float range = 0.0;
+    float word_start = 0.0;  // φ
     uint before = ray.unknown;  // the highest bit of the word before, in every place
     uint carry = 0u;            // the same as a bit; what lies before the first word counts as lit
     uint last_word = ray.last_cell >> 5;
@@ -67,7 +69,11 @@ void main() {
       words.xyz = words.yzw;
       uint before_end = word == last_word ? low_bits((ray.last_cell & 31u) + 1u) : 0xffffffffu;
       if (k_factored != 0u) {
-        lit_cells += bitCount(~shadow & before_end);
+        float word_end = phi_of_cell(ray.cells, float(32u * word + 32u));
+        float weight = word_end - word_start;
+        word_start = word_end;
+        lit_range += weight * float(bitCount(~shadow & before_end));
+        range += weight * float(bitCount(before_end));
       } else {
         uint changes = shadow ^ (shadow << 1 | carry);
         carry = shadow >> 31;
@@ -87,7 +93,7 @@ void main() {
       vec2 rows = sum[min(channel, k_channels - 1u)];
       integral[channel] = mix(rows.x, rows.y, blend);
     }
-    if (k_factored != 0u) integral *= float(lit_cells) / float(ray.last_cell + 1u);
+    if (k_factored != 0u) integral *= lit_range / range;
   }
   vec3 radiance = airlight_scale(space, medium, ray.angle.sine) * max(integral, vec3(0.0));
   imageStore(airlight_image, pixel, vec4(radiance, 1.0));
