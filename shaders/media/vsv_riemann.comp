@@ -9,8 +9,8 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 4) const uint k_light_textured = 0;
 layout(binding = 14) uniform sampler2D light_texture;
 
-// What the light radiates along the light ray at φ, relative to its intensity. `outward` is the direction in the plane of the view ray
-// at right angles to the axis.
+// What the light radiates along the light ray at φ, relative to its intensity. `outward` is the direction in the plane of the
+// view ray at right angles to the axis.
 vec3 light_colour(vec3 outward, float phi) {
   if (k_light_textured == 0u) return vec3(1.0);
   vec3 d = sin(phi) * outward - cos(phi) * space.axis;

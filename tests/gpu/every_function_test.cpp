@@ -76,6 +76,7 @@ constexpr Function k_functions[] = {
     {"ray_triangle_distance", 1, 1e-5, 1e-5},  // of a plane seen at up to 80° from its normal
     {"phi_of_cell", 1, k_single, 0},
     {"cell_of_phi", 1, k_single, 0},
+    {"light_texture_place", 2, k_single, 1e-6},  // ½ minus an angle
 };
 
 std::vector<Inputs> random_inputs(int count) {

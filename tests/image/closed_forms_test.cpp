@@ -61,6 +61,7 @@ TEST_P(ClosedForm, EmptyFogGlowsAroundTheLamp) {
     scene::View view = tests::view_of(tests::builtin("empty"), {16, 16});
     view.medium.phase = phase;
     view.medium.g = 0.6f;
+    view.medium.rayleigh_weight = 0.3f;
     const auto expected = expected_image(view, [](glm::dvec3, glm::dvec3) {
       return std::vector<Lit>{{0, k_infinity}};
     });

@@ -1,12 +1,13 @@
 // Calls every function that the shaders share with C++, on one set of inputs: on the GPU and on the CPU.
 #ifndef AIRLIGHT_EVERY_FUNCTION_GLSL
 #define AIRLIGHT_EVERY_FUNCTION_GLSL
+#include "frame/light_texture.glsl"
 #include "frame/shadow_cube.glsl"
 #include "frame/view.glsl"
 #include "epipolar/grid.glsl"
 #include "media/medium.glsl"
 
-CONST uint k_outputs = 59u;
+CONST uint k_outputs = 61u;
 
 struct Inputs {
   vec4 a;  // axis, D
@@ -131,6 +132,9 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   cells.count = 512.0f;
   put(outputs, at, phi_of_cell(cells, 100.0f * alpha));
   put(outputs, at, cell_of_phi(cells, phi));
+  vec2 place = light_texture_place(theta, 0.5f * theta);
+  put(outputs, at, place.x);
+  put(outputs, at, place.y);
 }
 
 #endif
