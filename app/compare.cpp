@@ -40,7 +40,9 @@ void compare(const Options& options) {
   // Everything that can be wrong with the command is found before the driver is woken.
   const quality::Settings settings = make_settings(options);
   const auto volumes = quality::parse_volumes(
-      options.get("volume").value_or("vsv,vsv:integral=riemann,reference-march"), settings);
+      options.get("volume").value_or(default_volumes(options, "vsv,vsv:integral=riemann,reference-march",
+                                                     "vsv:integral=riemann,reference-march")),
+      settings);
   const auto surfaces = quality::parse_surfaces(options.get("surface").value_or("shadow-map"), settings);
   const int shadow_map = shadow_map_size(options);
   const int frames = quality::parse_count("--frames", options.get("frames").value_or("5"));
@@ -54,6 +56,7 @@ void compare(const Options& options) {
     }
   }
   const Subject subject = make_subject(options);
+  quality::require_support(volumes, subject.view);
   const std::filesystem::path folder =
       options.output.empty() ? std::filesystem::path("out") / std::filesystem::path(options.scene).stem()
                              : std::filesystem::path(options.output);

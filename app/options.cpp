@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "quality/compare.h"
+#include "quality/light_texture.h"
 #include "quality/numbers.h"
 #include "scene/builtin.h"
 #include "scene/error.h"
@@ -120,7 +121,15 @@ scene::PointLight choose_light(const Options& options, const scene::Scene& scene
     throw usage(options.scene, "it has no light", "give one with --light-position x,y,z --intensity r,g,b");
   }
   if (intensity) light.intensity = quality::parse_colour("--intensity", *intensity);
+  if (const auto texture = options.get("light-texture")) {
+    light.texture = std::make_shared<const scene::LightTexture>(quality::read_light_texture(*texture));
+  }
   return light;
+}
+
+/// Whether a phase function has a g.
+bool has_lobe(scene::PhaseFunction phase) {
+  return phase == scene::PhaseFunction::henyey_greenstein || phase == scene::PhaseFunction::hoffman_preetham;
 }
 
 scene::Medium choose_medium(const Options& options, scene::Medium medium) {
@@ -128,26 +137,34 @@ scene::Medium choose_medium(const Options& options, scene::Medium medium) {
   if (const auto value = options.get("sigma-a")) medium.sigma_a = quality::parse_colour("--sigma-a", *value);
   if (const auto value = options.get("phase")) {
     using enum scene::PhaseFunction;
-    constexpr auto k_phases = std::to_array({isotropic, rayleigh, henyey_greenstein});
+    constexpr auto k_phases = std::to_array({isotropic, rayleigh, henyey_greenstein, hoffman_preetham});
     const auto found = std::find_if(k_phases.begin(), k_phases.end(), [&](scene::PhaseFunction phase) {
       return quality::phase_name(phase) == *value;
     });
     if (found == k_phases.end()) {
-      throw usage(
-          "--phase",
-          fmt::format("'{}' is {}", *value, *value == "hoffman-preetham" ? "not built yet" : "unknown"),
-          "use isotropic, rayleigh or henyey-greenstein");
+      throw usage("--phase", fmt::format("'{}' is unknown", *value),
+                  "use isotropic, rayleigh, henyey-greenstein or hoffman-preetham");
     }
     medium.phase = *found;
-    if (medium.phase != henyey_greenstein) medium.g = 0.0f;
+    if (!has_lobe(medium.phase)) medium.g = 0.0f;
   }
   if (const auto value = options.get("g")) {
     medium.g = quality::parse_float("--g", *value);
     if (!(medium.g > -1.0f && medium.g < 1.0f))
       throw usage("--g", fmt::format("'{}' is not between -1 and 1", *value));
-    if (medium.phase != scene::PhaseFunction::henyey_greenstein) {
+    if (!has_lobe(medium.phase)) {
       throw usage("--g", fmt::format("the phase function {} has no g", quality::phase_name(medium.phase)),
-                  "give --phase henyey-greenstein");
+                  "give --phase henyey-greenstein or hoffman-preetham");
+    }
+  }
+  if (const auto value = options.get("rayleigh-weight")) {
+    medium.rayleigh_weight = quality::parse_float("--rayleigh-weight", *value);
+    if (!(medium.rayleigh_weight >= 0.0f && medium.rayleigh_weight <= 1.0f))
+      throw usage("--rayleigh-weight", fmt::format("'{}' is not between 0 and 1", *value));
+    if (medium.phase != scene::PhaseFunction::hoffman_preetham) {
+      throw usage("--rayleigh-weight",
+                  fmt::format("the phase function {} mixes nothing", quality::phase_name(medium.phase)),
+                  "give --phase hoffman-preetham");
     }
   }
   return medium;
@@ -178,14 +195,20 @@ std::span<const OptionLine> common_options() {
         {"light", "NAME|N", "one of the scene's lights, by name or number from 0 (default: the first)"},
         {"light-position", "X,Y,Z", "where the light is [m]; needs --intensity"},
         {"intensity", "R,G,B", "radiant intensity of the light [W/sr]; one number means grey"},
+        {"light-texture", "FILE.exr",
+         "what the light radiates by direction, relative to its intensity: an equirectangular image, +Y at "
+         "the "
+         "top, +Z in the middle, +X to the left of it; for vsv it needs integral=riemann"},
         {"sigma-s", "R,G,B",
          "scattering coefficient [1/m]; one number means grey (default: the scene's, 0.1 for a file)"},
         {"sigma-a", "R,G,B",
          "absorption coefficient [1/m]; one number means grey (default: the scene's, 0 for a file)"},
         {"phase", "NAME",
-         "phase function: isotropic, rayleigh, henyey-greenstein (default: the scene's, isotropic for a "
-         "file)"},
+         "phase function: isotropic, rayleigh, henyey-greenstein, hoffman-preetham (default: the scene's, "
+         "isotropic for a file)"},
         {"g", "G", "mean cosine of henyey-greenstein, between -1 and 1"},
+        {"rayleigh-weight", "W",
+         "part of rayleigh in hoffman-preetham, 0 to 1; the rest is henyey-greenstein (default: 0.5)"},
         {"albedo", "R,G,B", "reflectance of every surface, 0 to 1; 0 leaves the airlight alone"},
         {"size", "WxH", "size of the image [pixels] (default: 512x512)"},
         {"exposure", "E",
@@ -239,6 +262,12 @@ quality::Settings make_settings(const Options& options) {
   settings.samples =
       quality::parse_count("--reference-samples", options.get("reference-samples").value_or("512"));
   return settings;
+}
+
+std::string default_volumes(const Options& options, std::string_view plain,
+                            std::string_view for_light_texture) {
+  const bool adapts = options.get("light-texture") && !options.get("integral");
+  return std::string(adapts ? for_light_texture : plain);
 }
 
 int shadow_map_size(const Options& options) {

@@ -53,6 +53,11 @@ Subject make_subject(const Options& options);
 /// What the options say to all methods. @throws scene::Error (usage)
 quality::Settings make_settings(const Options& options);
 
+/// The list of airlight methods where --volume gives none: one for a light with a texture, which not every
+/// integral can take, unless --integral chooses one.
+std::string default_volumes(const Options& options, std::string_view plain,
+                            std::string_view for_light_texture);
+
 /// --shadow-map [texels]
 int shadow_map_size(const Options& options);
 

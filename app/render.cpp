@@ -33,12 +33,15 @@ void render(const Options& options) {
     throw Error(ExitCode::usage, "-o", fmt::format("'{}' does not end in .exr", options.output),
                 "images are OpenEXR, with a PNG preview beside");
   const quality::Settings settings = make_settings(options);
-  const auto volume =
-      one("--volume", quality::parse_volumes(options.get("volume").value_or("vsv"), settings));
+  const auto volume = one(
+      "--volume",
+      quality::parse_volumes(
+          options.get("volume").value_or(default_volumes(options, "vsv", "vsv:integral=riemann")), settings));
   const auto surface =
       one("--surface", quality::parse_surfaces(options.get("surface").value_or("shadow-map"), settings));
   const int shadow_map = shadow_map_size(options);
   const Subject subject = make_subject(options);
+  quality::require_support(std::array{volume}, subject.view);
   std::filesystem::path preview = output;
   preview.replace_extension(".png");
   require_writable(output);

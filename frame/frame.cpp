@@ -1,12 +1,14 @@
 #include "frame/frame.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "frame/view_block.h"
 #include "scene/error.h"
+#include "scene/light_texture.h"
 
 #include "spirv/frame/composite_comp.h"
 
@@ -69,6 +71,10 @@ std::vector<glm::vec3> read_rgb(const gpu::Texture& texture, const char* name) {
   return rgb;
 }
 
+gpu::Program compositor(bool is_light_textured) {
+  return gpu::Program::compute(k_composite_comp, std::array{gpu::Constant(0, is_light_textured)});
+}
+
 }  // namespace
 
 void NoShadow::query(const FrameInputs&, const gpu::Texture& visibility) {
@@ -85,7 +91,31 @@ Frame::Frame(gpu::Context& context, const scene::Geometry& geometry, int shadow_
       scene_(context, geometry),
       shadow_map_size_(shadow_map_size),
       view_block_(sizeof(shaders::ViewBlock)),
-      composite_(gpu::Program::compute(k_composite_comp)) {}
+      composite_(compositor(false)) {}
+
+void Frame::load_light_texture(const std::shared_ptr<const scene::LightTexture>& texture) {
+  if (texture == light_texture_) return;
+  if (texture) {
+    const glm::ivec2 size = texture->size();
+    const int limit = context_.limits().max_texture_size;
+    if (std::max(size.x, size.y) > limit) {
+      throw Error(ExitCode::driver, texture->name(),
+                  fmt::format("{}x{} texels are more than this driver's {} (GL_MAX_TEXTURE_SIZE)", size.x,
+                              size.y, limit),
+                  "scale the image down");
+    }
+    std::vector<glm::vec4> texels;
+    texels.reserve(texture->texels().size());
+    for (const glm::vec3& texel : texture->texels()) texels.emplace_back(texel, 0.0f);
+    light_texture_texels_ = gpu::Texture(gpu::Format::rgba32f, size);
+    light_texture_texels_.write(texels.data());
+    light_texture_texels_.sample_bilinearly_around();
+  } else {
+    light_texture_texels_ = {};
+  }
+  if ((texture == nullptr) != (light_texture_ == nullptr)) composite_ = compositor(texture != nullptr);
+  light_texture_ = texture;
+}
 
 void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airlight& airlight,
                    gpu::StageTimer& timer) {
@@ -93,6 +123,7 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
   const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
 
   // Make what this frame needs and the last one did not have.
+  load_light_texture(view.light.texture);
   if (!gbuffer_ || radiance_.size() != view.size) {
     const int limit = std::min(context_.limits().max_texture_size, context_.limits().max_viewport);
     if (std::max(view.size.x, view.size.y) > limit) {
@@ -124,6 +155,7 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
                            .triangles = gbuffer_->triangles(),
                            .surfaces = gbuffer_->surfaces(),
                            .shadow_map = needs_shadow_map ? &*shadow_map_ : nullptr,
+                           .light_texture = light_texture_ ? &light_texture_texels_ : nullptr,
                            .timer = timer};
   timer.time("surface_query", [&] { surface_shadow.query(inputs, visibility_); });
   airlight.integrate(inputs, airlight_);  // times its own stages
@@ -133,6 +165,7 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
     gbuffer_->surfaces().bind_sampler(1);
     visibility_.bind_sampler(2);
     airlight_.bind_sampler(3);
+    if (light_texture_) light_texture_texels_.bind_sampler(14);
     radiance_.bind_image(0);
     composite_.dispatch({view.size, 1}, {8, 8, 1});
   });
@@ -157,6 +190,7 @@ FrameImages Frame::read() const {
 std::map<std::string, std::int64_t> Frame::bytes() const {
   std::map<std::string, std::int64_t> bytes = {{"scene", scene_.bytes()}};
   if (shadow_map_) bytes["shadow_map"] = shadow_map_->depth().bytes();
+  if (light_texture_) bytes["light_texture"] = light_texture_texels_.bytes();
   return bytes;
 }
 

@@ -42,12 +42,17 @@ class Frame {
   std::map<std::string, std::int64_t> bytes() const;
 
  private:
+  /// Brings the light's texture to the GPU and makes the compositor fit for it.
+  void load_light_texture(const std::shared_ptr<const scene::LightTexture>& texture);
+
   gpu::Context& context_;
   SceneBuffers scene_;
   int shadow_map_size_;
   std::optional<ShadowMap> shadow_map_;
   gpu::Buffer view_block_;
   gpu::Program composite_;
+  std::shared_ptr<const scene::LightTexture> light_texture_;  ///< the one on the GPU
+  gpu::Texture light_texture_texels_;
   std::optional<GBuffer> gbuffer_;
   gpu::Texture visibility_, airlight_, radiance_;
 };

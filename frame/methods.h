@@ -25,6 +25,8 @@ struct FrameInputs {
   const gpu::Texture&
       surfaces;  ///< rgba32f: unit normal towards the eye, distance along the unit view ray [m]; 0 for none
   const ShadowMap* shadow_map;  ///< nullptr unless a method needs it
+  const gpu::Texture*
+      light_texture;  ///< rgba32f, by direction (light_texture.glsl); nullptr where the light has none
   gpu::StageTimer& timer;
 };
 

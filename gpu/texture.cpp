@@ -67,6 +67,13 @@ std::int64_t Texture::bytes() const {
   return std::int64_t{4} * format_info(format_).channels * size_.x * size_.y * layers_;
 }
 
+void Texture::sample_bilinearly_around() const {
+  glTextureParameteri(name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTextureParameteri(name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTextureParameteri(name(), GL_TEXTURE_WRAP_S, GL_REPEAT);
+  glTextureParameteri(name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
 void Texture::bind_sampler(unsigned unit) const {
   glBindTextureUnit(unit, name());
 }

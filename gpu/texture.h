@@ -18,7 +18,7 @@ void delete_framebuffer(unsigned name);
 /// The formats in use, as OpenGL's sized internal formats.
 enum class Format : unsigned { r32ui, rgb32ui, rgba32ui, r32f, rg32f, rgb32f, rgba32f, depth32f };
 
-/// A 2D texture, or an array of them, with one level and nearest sampling.
+/// A 2D texture, or an array of them, with one level and nearest sampling unless told otherwise.
 class Texture {
  public:
   Texture() = default;
@@ -28,6 +28,10 @@ class Texture {
   glm::ivec2 size() const { return size_; }
   int layers() const { return layers_; }
   std::int64_t bytes() const;
+
+  /// From now on samplers interpolate between texels, around the sides, not over the top and the bottom.
+  /// llvmpipe does so in single precision; a GPU may round the weights to 1/256.
+  void sample_bilinearly_around() const;
 
   void bind_sampler(unsigned unit) const;
   void bind_image(unsigned unit) const;  ///< for reads and writes

@@ -3,7 +3,10 @@
 #include <array>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "media/medium.h"
+#include "scene/error.h"
 
 #include "spirv/media/phi_growth_comp.h"
 #include "spirv/media/vsv_riemann_comp.h"
@@ -40,32 +43,43 @@ void Vsv::load(const gpu::Context& context, const Variant& variant) {
   if (loaded_ == variant) return;
   const epipolar::Resolution& resolution = volume_.grid().resolution();
   const auto grid = epipolar::resolution_constants(resolution);
-  const std::array<gpu::Constant, 7> constants = {grid[0],
+  const std::array<gpu::Constant, 8> constants = {grid[0],
                                                   grid[1],
                                                   grid[2],
                                                   gpu::Constant(3, variant.phase),
                                                   gpu::Constant(4, variant.channels),
                                                   gpu::Constant(5, k_table_rows),
-                                                  gpu::Constant(6, variant.direct)};
+                                                  gpu::Constant(6, variant.direct),
+                                                  gpu::Constant(7, integral_ == VsvIntegral::factored)};
   phi_growth_ = gpu::Program::compute(k_phi_growth_comp, std::array{grid[0], constants[3]});
-  if (integral_ == VsvIntegral::table) {
+  if (integral_ != VsvIntegral::riemann) {
     build_table_ = gpu::Program::compute(k_vsv_table_build_comp, std::span(constants).first<6>());
     integrate_ = gpu::Program::compute(k_vsv_table_comp, constants);
     table_ = gpu::Buffer(std::int64_t{k_table_rows} * (resolution.phi + 1) * variant.channels * 8);
     table_texels_ = {context, table_, gpu::Format::rg32f, "the table integral"};
   } else {
-    integrate_ = gpu::Program::compute(k_vsv_riemann_comp, std::span(constants).first<4>());
+    integrate_ = gpu::Program::compute(
+        k_vsv_riemann_comp,
+        std::array{grid[0], grid[1], grid[2], constants[3], gpu::Constant(4, variant.light_textured)});
   }
   loaded_ = variant;
 }
 
+void Vsv::require_support(VsvIntegral integral, const scene::PointLight& light) {
+  if (!light.texture || integral == VsvIntegral::riemann) return;
+  throw scene::Error(scene::ExitCode::usage,
+                     fmt::format("vsv:integral={}", integral == VsvIntegral::table ? "table" : "factored"),
+                     "it cannot take a light texture", "use vsv:integral=riemann");
+}
+
 void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) {
+  require_support(integral_, inputs.view.light);
   shaders::MediumBlock block = medium_block(inputs.view);
   const bool is_grey = block.sigma_t.x == block.sigma_t.y && block.sigma_t.y == block.sigma_t.z;
   const epipolar::Resolution& resolution = volume_.grid().resolution();
   const shaders::EpipolarBlock space = volume_.find_ranges(inputs);
   load(inputs.context, {static_cast<std::uint32_t>(inputs.view.medium.phase), is_grey ? 1u : 3u,
-                        direct_cells(space, resolution)});
+                        direct_cells(space, resolution), inputs.light_texture != nullptr});
   inputs.timer.time("ranges", [&] {
     block.table_row_step =
         space.alpha_step * static_cast<float>(resolution.alpha) / static_cast<float>(k_table_rows - 1);
@@ -74,7 +88,7 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
     if (phi_cells_ == PhiCells::growing) phi_growth_.dispatch({1, 1, 1}, {1, 1, 1});
   });
   volume_.fill(inputs);
-  if (integral_ == VsvIntegral::table) {
+  if (integral_ != VsvIntegral::riemann) {
     inputs.timer.time("table", [&] {
       table_.bind_storage(6);
       build_table_.dispatch({k_table_rows, 1, 1}, {8, 1, 1});
@@ -82,7 +96,8 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
   }
   inputs.timer.time("integrate", [&] {
     inputs.surfaces.bind_sampler(0);
-    if (integral_ == VsvIntegral::table) table_texels_.bind_sampler(13);
+    if (integral_ != VsvIntegral::riemann) table_texels_.bind_sampler(13);
+    if (inputs.light_texture) inputs.light_texture->bind_sampler(14);
     radiance.bind_image(0);
     integrate_.dispatch({inputs.view.size, 1}, {8, 8, 1});
   });
@@ -90,7 +105,7 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
 
 std::map<std::string, std::int64_t> Vsv::bytes() const {
   std::map<std::string, std::int64_t> bytes = volume_.bytes();
-  if (integral_ == VsvIntegral::table) bytes["table"] = table_.bytes();
+  if (integral_ != VsvIntegral::riemann) bytes["table"] = table_.bytes();
   return bytes;
 }
 

@@ -11,6 +11,9 @@ namespace airlight::media {
 enum class VsvIntegral {
   table,    ///< between changes of visibility, from a table of the unshadowed integral: exact up to the bits
   riemann,  ///< the paper's sum over all samples (Eq. 5)
+  /// the unshadowed integral, from the table, times the lit fraction of the samples: the cheapest and the
+  /// least exact, for it does not ask where along the ray the shadow lies
+  factored,
 };
 
 /// How the range of φ is cut into samples.
@@ -20,7 +23,9 @@ enum class PhiCells {
 };
 
 /// `vsv`: airlight from an epipolar voxelized shadow volume.
-/// Based on: Wyman, "Voxelized Shadow Volumes", HPG 2011, sections 2 and 3.
+/// Based on: Wyman, "Voxelized Shadow Volumes", HPG 2011, sections 2 and 3. `factored`: Dobashi, Yamamoto and
+/// Nishita, "Interactive Rendering of Atmospheric Scattering Effects Using Graphics Hardware", 2002, as the
+/// paper uses it for its timings (end of its section 5).
 class Vsv : public frame::Airlight {
  public:
   /// @throws scene::Error as epipolar::Grid.
@@ -28,15 +33,21 @@ class Vsv : public frame::Airlight {
       PhiCells phi_cells = PhiCells::growing);
 
   bool needs_shadow_map() const override { return volume_.needs_shadow_map(); }
+
+  /// @throws scene::Error (usage) where `require_support` does
   void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override;
   std::map<std::string, std::int64_t> bytes() const override;
+
+  /// @throws scene::Error (usage) for a light textured by direction, unless every sample is looked at: the
+  /// table depends on α and φ alone, and such a light on θ too
+  static void require_support(VsvIntegral integral, const scene::PointLight& light);
 
   const epipolar::ShadowVolume& volume() const { return volume_; }
 
  private:
   /// What the shaders are specialised for.
   struct Variant {
-    std::uint32_t phase, channels, direct;
+    std::uint32_t phase, channels, direct, light_textured;
     bool operator==(const Variant&) const = default;
   };
   void load(const gpu::Context& context, const Variant& variant);

@@ -37,8 +37,7 @@ std::size_t parse_word(const std::string& where, std::string_view value, const W
               fmt::format("use {}", fmt::join(words, ", ")));
 }
 
-constexpr Words<2> k_integrals = {"table", "riemann"};
-constexpr Words<1> k_integrals_planned = {"factored"};
+constexpr Words<3> k_integrals = {"table", "riemann", "factored"};
 constexpr Words<3> k_populates = {"shadow-map", "conservative", "screen-space"};
 constexpr Words<3> k_scans = {"fused", "column", "multi-pass"};
 constexpr Words<3> k_ranges = {"frame", "alpha-phi", "full"};
@@ -63,10 +62,9 @@ void set_resolution(Settings& settings, const std::string& where, std::string_vi
 
 const std::vector<Key>& keys() {
   static const std::vector<Key> keys = {
-      {"integral", "how visibility becomes radiance: table (default) or riemann",
+      {"integral", "how visibility becomes radiance: table (default), riemann or factored",
        [](Settings& settings, const std::string& where, std::string_view value) {
-         settings.integral =
-             static_cast<media::VsvIntegral>(parse_word(where, value, k_integrals, k_integrals_planned));
+         settings.integral = static_cast<media::VsvIntegral>(parse_word(where, value, k_integrals, {}));
        },
        [](const Settings& settings) -> Value {
          return std::string(k_integrals[static_cast<std::size_t>(settings.integral)]);
@@ -315,6 +313,12 @@ std::vector<VolumeChoice> parse_volumes(std::string_view list, const Settings& c
 
 std::vector<SurfaceChoice> parse_surfaces(std::string_view list, const Settings& common) {
   return parse_choices("--surface", list, common, surface_methods());
+}
+
+void require_support(std::span<const VolumeChoice> choices, const scene::View& view) {
+  for (const VolumeChoice& choice : choices) {
+    if (choice.method->name == "vsv") media::Vsv::require_support(choice.settings.integral, view.light);
+  }
 }
 
 SharedReference::SharedReference(const scene::Geometry& geometry, const scene::View& view, Progress progress)

@@ -124,4 +124,7 @@ using SurfaceChoice = Choice<SurfaceMethod>;
 std::vector<VolumeChoice> parse_volumes(std::string_view list, const Settings& common);
 std::vector<SurfaceChoice> parse_surfaces(std::string_view list, const Settings& common);
 
+/// @throws scene::Error (usage) naming a choice that cannot show what the view asks for, as a light texture
+void require_support(std::span<const VolumeChoice> choices, const scene::View& view);
+
 }  // namespace airlight::quality

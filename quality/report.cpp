@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "quality/compare.h"
+#include "scene/light_texture.h"
 
 namespace airlight::quality {
 namespace {
@@ -154,6 +155,11 @@ std::string run_section(const Run& run) {
 std::string report_html(const Comparison& comparison) {
   const Truth& truth = comparison.truth;
   const scene::View& view = comparison.view;
+  const std::string light_texture =
+      view.light.texture ? fmt::format(", textured by {}", escape(view.light.texture->name())) : "";
+  const std::string rayleigh_weight = view.medium.phase == scene::PhaseFunction::hoffman_preetham
+                                          ? fmt::format(", rayleigh weight {}", view.medium.rayleigh_weight)
+                                          : "";
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<title>Airlight: "
       "{0}</title>\n{1}</head><body>\n"
@@ -165,7 +171,8 @@ std::string report_html(const Comparison& comparison) {
       "<dl><dt>scene</dt><dd>{}, {} triangles, {} of zero area dropped</dd>\n<dt>image</dt><dd>{} × {} "
       "pixels</dd>\n"
       "<dt>camera</dt><dd>eye {} m, target {} m, up {}, {}° vertical</dd>\n"
-      "<dt>light</dt><dd>at {} m, {} W/sr</dd>\n<dt>medium</dt><dd>σ_s {} /m, σ_a {} /m, {}, g = {}</dd>\n"
+      "<dt>light</dt><dd>at {} m, {} W/sr{}</dd>\n<dt>medium</dt><dd>σ_s {} /m, σ_a {} /m, {}, g = "
+      "{}{}</dd>\n"
       "<dt>device</dt><dd>{}, OpenGL {}, {} CPU cores; airlight {}</dd>\n"
       "<dt>reference</dt><dd>Embree ray tracing, {} samples a view ray, every change of visibility bisected: "
       "{:.1f} million rays in "
@@ -175,10 +182,11 @@ std::string report_html(const Comparison& comparison) {
       escape(comparison.scene), comparison.triangles, comparison.report.degenerate_triangles, view.size.x,
       view.size.y, text_of(view.camera.eye), text_of(view.camera.target), text_of(view.camera.up),
       view.camera.vertical_fov_degrees, text_of(view.light.position), text_of(view.light.intensity),
-      text_of(view.medium.sigma_s), text_of(view.medium.sigma_a), phase_name(view.medium.phase),
-      view.medium.g, escape(comparison.device.renderer), escape(comparison.device.version), comparison.cores,
-      version(), truth.samples, static_cast<double>(truth.rays) * 1e-6, truth.ms, 100.0 * truth.self_error,
-      truth.mean_airlight, comparison.exposure.value,
+      light_texture, text_of(view.medium.sigma_s), text_of(view.medium.sigma_a),
+      phase_name(view.medium.phase), view.medium.g, rayleigh_weight, escape(comparison.device.renderer),
+      escape(comparison.device.version), comparison.cores, version(), truth.samples,
+      static_cast<double>(truth.rays) * 1e-6, truth.ms, 100.0 * truth.self_error, truth.mean_airlight,
+      comparison.exposure.value,
       comparison.exposure.is_automatic
           ? ", chosen so that the 95th percentile of the reference maps to 0.8 of white, linear"
           : "");

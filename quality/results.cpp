@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/error.h"
+#include "scene/light_texture.h"
 
 namespace airlight::quality {
 namespace {
@@ -36,22 +37,26 @@ Json single(float value) {
 
 Json view_json(const scene::View& view) {
   const scene::Camera& camera = view.camera;
-  return {{"size", {view.size.x, view.size.y}},
-          {"camera",
-           {{"name", camera.name},
-            {"eye", vector(camera.eye)},
-            {"target", vector(camera.target)},
-            {"up", vector(camera.up)},
-            {"fov", camera.vertical_fov_degrees}}},
-          {"light",
-           {{"name", view.light.name},
-            {"position", vector(view.light.position)},
-            {"intensity", vector(view.light.intensity)}}},
-          {"medium",
-           {{"sigma_s", vector(view.medium.sigma_s)},
-            {"sigma_a", vector(view.medium.sigma_a)},
-            {"phase", phase_name(view.medium.phase)},
-            {"g", single(view.medium.g)}}}};
+  Json json = {{"size", {view.size.x, view.size.y}},
+               {"camera",
+                {{"name", camera.name},
+                 {"eye", vector(camera.eye)},
+                 {"target", vector(camera.target)},
+                 {"up", vector(camera.up)},
+                 {"fov", camera.vertical_fov_degrees}}},
+               {"light",
+                {{"name", view.light.name},
+                 {"position", vector(view.light.position)},
+                 {"intensity", vector(view.light.intensity)}}},
+               {"medium",
+                {{"sigma_s", vector(view.medium.sigma_s)},
+                 {"sigma_a", vector(view.medium.sigma_a)},
+                 {"phase", phase_name(view.medium.phase)},
+                 {"g", single(view.medium.g)}}}};
+  if (view.light.texture) json["light"]["texture"] = view.light.texture->name();
+  if (view.medium.phase == scene::PhaseFunction::hoffman_preetham)
+    json["medium"]["rayleigh_weight"] = single(view.medium.rayleigh_weight);
+  return json;
 }
 
 Json run_json(const Run& run) {
@@ -138,22 +143,28 @@ std::string phase_name(scene::PhaseFunction phase) {
       return "rayleigh";
     case scene::PhaseFunction::henyey_greenstein:
       return "henyey-greenstein";
+    case scene::PhaseFunction::hoffman_preetham:
+      return "hoffman-preetham";
   }
   return {};
 }
 
 std::map<std::string, std::string> view_options(const scene::View& view) {
-  return {{"size", fmt::format("{}x{}", view.size.x, view.size.y)},
-          {"eye", text_of(view.camera.eye)},
-          {"target", text_of(view.camera.target)},
-          {"up", text_of(view.camera.up)},
-          {"fov", fmt::format("{}", view.camera.vertical_fov_degrees)},
-          {"light-position", text_of(view.light.position)},
-          {"intensity", text_of(view.light.intensity)},
-          {"sigma-s", text_of(view.medium.sigma_s)},
-          {"sigma-a", text_of(view.medium.sigma_a)},
-          {"phase", phase_name(view.medium.phase)},
-          {"g", fmt::format("{}", view.medium.g)}};
+  std::map<std::string, std::string> options = {{"size", fmt::format("{}x{}", view.size.x, view.size.y)},
+                                                {"eye", text_of(view.camera.eye)},
+                                                {"target", text_of(view.camera.target)},
+                                                {"up", text_of(view.camera.up)},
+                                                {"fov", fmt::format("{}", view.camera.vertical_fov_degrees)},
+                                                {"light-position", text_of(view.light.position)},
+                                                {"intensity", text_of(view.light.intensity)},
+                                                {"sigma-s", text_of(view.medium.sigma_s)},
+                                                {"sigma-a", text_of(view.medium.sigma_a)},
+                                                {"phase", phase_name(view.medium.phase)},
+                                                {"g", fmt::format("{}", view.medium.g)}};
+  if (view.light.texture) options["light-texture"] = view.light.texture->name();
+  if (view.medium.phase == scene::PhaseFunction::hoffman_preetham)
+    options["rayleigh-weight"] = fmt::format("{}", view.medium.rayleigh_weight);
+  return options;
 }
 
 std::string error_text(double rrmse, double self_error) {

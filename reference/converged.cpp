@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -159,27 +160,36 @@ AirlightImage Reference::converged(int samples, const Progress& progress) const 
   const auto start = std::chrono::steady_clock::now();
 
   const auto make_worker = [&] {
-    return [&, runs = LitRuns(state.visibility, samples)](int y) mutable {
+    std::optional<LightAlongRay> texture;
+    if (state.light_texture) texture.emplace(*state.light_texture);
+    return [&, runs = LitRuns(state.visibility, samples), texture](int y) mutable {
       RowSums& row = sums[static_cast<std::size_t>(y)];
       const std::uint64_t rays_before = runs.rays();
       for (int x = 0; x < state.view.size.x; ++x) {
         const ViewRay ray = state.view_ray(x, y);
         runs.trace(ray);
+        if (texture) texture->aim(ray);
         const glm::dvec3 scale = state.airlight_scale(ray);
         glm::dvec3 integral(0.0), missed(0.0);
+        glm::dvec3 lit(0.0), lit_missed(0.0);  // as if all channels had the σ of the last one looked at
         for (int channel = 0; channel < 3; ++channel) {
           if (scale[channel] == 0.0) continue;
-          if (channel > 0 && sigma_t[channel] == sigma_t[channel - 1] && scale[channel - 1] != 0.0) {
-            integral[channel] = integral[channel - 1];
-            missed[channel] = missed[channel - 1];
-            continue;
+          const bool is_known =
+              channel > 0 && sigma_t[channel] == sigma_t[channel - 1] && scale[channel - 1] != 0.0;
+          if (!is_known) {
+            const FogQuadrature fog(ray, sigma_t[channel], medium);
+            const auto integrate = [&](double from, double to) {
+              return texture ? fog.integral(ray.psi(from), ray.psi(to), *texture)
+                             : glm::dvec3(fog.integral(ray.psi(from), ray.psi(to)));
+            };
+            lit = lit_missed = glm::dvec3(0.0);
+            runs.for_each_run([&](double from, double to) { lit += integrate(from, to); });
+            runs.for_each_missed_run([&](double from, double to, bool is_lit) {
+              lit_missed += (is_lit ? 1.0 : -1.0) * integrate(from, to);
+            });
           }
-          const FogQuadrature fog(ray, sigma_t[channel], medium.phase, medium.g);
-          runs.for_each_run(
-              [&](double from, double to) { integral[channel] += fog.integral(ray.psi(from), ray.psi(to)); });
-          runs.for_each_missed_run([&](double from, double to, bool lit) {
-            missed[channel] += (lit ? 1.0 : -1.0) * fog.integral(ray.psi(from), ray.psi(to));
-          });
+          integral[channel] = lit[channel];
+          missed[channel] = lit_missed[channel];
         }
         const glm::dvec3 radiance = scale * integral;  // Eq. (*)
         image.radiance[state.index(x, y)] = glm::vec3(radiance);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "reference/phase.h"
@@ -10,7 +11,8 @@
 // The integrand exp(−σ D (cos α + sin α cot(ψ/2))) p(−cos ψ) is smooth on every scale but three: the optical
 // depth may grow fast, it grows without bound as ψ → 0, and the lobe of a Henyey-Greenstein phase function is
 // 1 − |g| wide. Panels that are no longer than each of these scales, measured where the panel begins, leave
-// Gauss–Legendre quadrature an error near rounding.
+// Gauss–Legendre quadrature an error near rounding. A light's texture adds scales of its own, and kinks,
+// where panels end (light_texture.h).
 
 namespace airlight::reference {
 
@@ -38,18 +40,21 @@ constexpr std::array<Node, 4> k_gauss_8{{{0.1834346424956498, 0.3626837833783620
                                          {0.9602898564975363, 0.1012285362903763}}};
 
 template <std::size_t Half, class Function>
-double gauss_legendre(const std::array<Node, Half>& rule, double from, double to, const Function& f) {
+auto gauss_legendre(const std::array<Node, Half>& rule, double from, double to, const Function& f) {
   const double middle = 0.5 * (from + to), half = 0.5 * (from - to);
-  double sum = 0.0;
+  decltype(f(middle)) sum(0.0);
   for (const Node& node : rule) sum += node.weight * (f(middle - half * node.x) + f(middle + half * node.x));
   return half * sum;
 }
 
 }  // namespace
 
-FogQuadrature::FogQuadrature(const ViewRay& ray, double sigma_t, scene::PhaseFunction function, double g)
-    : function_(function),
-      g_(function == scene::PhaseFunction::henyey_greenstein ? g : 0.0),
+FogQuadrature::FogQuadrature(const ViewRay& ray, double sigma_t, const scene::Medium& medium)
+    : medium_(medium),
+      g_(medium.phase == scene::PhaseFunction::henyey_greenstein ||
+                 medium.phase == scene::PhaseFunction::hoffman_preetham
+             ? static_cast<double>(medium.g)
+             : 0.0),
       depth_scale_(sigma_t * ray.D * ray.sin_alpha),
       depth_offset_(sigma_t * ray.D * ray.cos_alpha),
       deepest_(sigma_t * ray.D + k_depth_range),
@@ -57,7 +62,7 @@ FogQuadrature::FogQuadrature(const ViewRay& ray, double sigma_t, scene::PhaseFun
 
 double FogQuadrature::integrand(double psi) const {
   const double optical_depth = depth_offset_ + depth_scale_ / std::tan(0.5 * psi);  // view_ray.h (3)
-  return std::exp(-optical_depth) * phase(function_, g_, -std::cos(psi));
+  return std::exp(-optical_depth) * phase(medium_, -std::cos(psi));
 }
 
 double FogQuadrature::panel_end(double psi, double optical_depth) const {
@@ -69,14 +74,17 @@ double FogQuadrature::panel_end(double psi, double optical_depth) const {
   return std::max({by_distance, cotangent > 0.0 ? by_depth : 0.0, by_lobe});
 }
 
-double FogQuadrature::integral(double psi_from, double psi_to) const {
-  const auto f = [this](double psi) { return integrand(psi); };
-  double sum = 0.0;
+/// @param f       the integrand, of ψ
+/// @param longest what else bounds the length of a panel from ψ on
+template <class Value, class Integrand, class Longest>
+Value FogQuadrature::sum_panels(double psi_from, double psi_to, const Integrand& f,
+                                const Longest& longest_from) const {
+  Value sum(0.0);
   double psi = psi_from;
   while (psi > psi_to && psi > smallest_psi_) {
     const double optical_depth = depth_offset_ + depth_scale_ / std::tan(0.5 * psi);
     if (!(optical_depth < deepest_)) break;
-    const double longest = psi - panel_end(psi, optical_depth);
+    const double longest = std::min(psi - panel_end(psi, optical_depth), longest_from(psi));
     const double length = std::min(longest, psi - psi_to);
     const double next = length < longest ? psi_to : psi - longest;
     // Short lit runs between many shadows are common, and need few nodes.
@@ -89,6 +97,22 @@ double FogQuadrature::integral(double psi_from, double psi_to) const {
     }
     psi = next;
   }
+  return sum;
+}
+
+double FogQuadrature::integral(double psi_from, double psi_to) const {
+  return sum_panels<double>(
+      psi_from, psi_to, [this](double psi) { return integrand(psi); },
+      [](double) { return std::numeric_limits<double>::infinity(); });
+}
+
+glm::dvec3 FogQuadrature::integral(double psi_from, double psi_to, const LightAlongRay& light) const {
+  glm::dvec3 sum(0.0);
+  light.for_each_piece(psi_from, psi_to, [&](double from, double to) {
+    sum += sum_panels<glm::dvec3>(
+        from, to, [&](double psi) { return integrand(psi) * light.at(psi); },
+        [&](double psi) { return light.smooth_length(psi); });
+  });
   return sum;
 }
 

@@ -43,8 +43,9 @@ inline float exp_of_nonpositive(float x) {
 
 /// Sums the integrand e^{−σ(t+r)} p(α+φ) over the lit samples of a fan.
 /// @param sigma_t extinction coefficient σ of one channel [1/m]
+/// @param texture the light's, of that channel, for each sample; nullptr without
 double sum_lit(const ViewRay& ray, const HalfAngles& half, std::uint32_t lit, double sigma_t,
-               const scene::Medium& medium) {
+               const scene::Medium& medium, const float* texture) {
   constexpr int k_count = LightRays::k_count;
   const double scale = sigma_t * ray.D * ray.sin_alpha;
   const double offset = sigma_t * ray.D * ray.cos_alpha;
@@ -55,15 +56,33 @@ double sum_lit(const ViewRay& ray, const HalfAngles& half, std::uint32_t lit, do
     value[i] = (lit >> i & 1u) ? exp_of_nonpositive(-depth) : 0.0f;
   }
   if (medium.phase != scene::PhaseFunction::isotropic) {
-    const double g = medium.g;
     for (int i = 0; i < k_count; ++i) {
       const double cosine = half.sine[i] * half.sine[i] - half.cosine[i] * half.cosine[i];  // view_ray.h (4)
-      value[i] *= static_cast<float>(phase(medium.phase, g, cosine));
+      value[i] *= static_cast<float>(phase(medium, cosine));
     }
+  }
+  if (texture) {
+    for (int i = 0; i < k_count; ++i) value[i] *= texture[i];
   }
   double sum = 0.0;
   for (int i = 0; i < k_count; ++i) sum += static_cast<double>(value[i]);
-  return medium.phase == scene::PhaseFunction::isotropic ? sum * phase(medium.phase, 0.0, 0.0) : sum;
+  return medium.phase == scene::PhaseFunction::isotropic ? sum * phase(medium, 0.0) : sum;
+}
+
+/// What a textured light sends along each of its rays, by channel.
+struct LightColours {
+  float values[3][LightRays::k_count];
+};
+
+LightColours look_up(const LightLookup& texture, const LightRays& rays, std::uint32_t lit) {
+  LightColours colours{};
+  for (int i = 0; i < LightRays::k_count; ++i) {
+    if (!(lit >> i & 1u)) continue;
+    const glm::dvec3 direction(rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]);
+    const glm::vec3 colour(texture.at(direction));
+    for (int channel = 0; channel < 3; ++channel) colours.values[channel][i] = colour[channel];
+  }
+  return colours;
 }
 
 }  // namespace
@@ -76,7 +95,7 @@ AirlightImage Reference::march(int samples, RayMode mode, const Progress& progre
   const State& state = *state_;
   const scene::Medium& medium = state.view.medium;
   const glm::dvec3 sigma_t = glm::dvec3(medium.sigma_s) + glm::dvec3(medium.sigma_a);
-  const bool grey = sigma_t.r == sigma_t.g && sigma_t.g == sigma_t.b;
+  const bool grey = sigma_t.r == sigma_t.g && sigma_t.g == sigma_t.b && !state.light_texture;
 
   AirlightImage image;
   image.radiance.resize(state.pixels());
@@ -95,10 +114,11 @@ AirlightImage Reference::march(int samples, RayMode mode, const Progress& progre
           const int count = std::min(LightRays::k_count, samples - first);
           const std::uint32_t lit = state.visibility.lit(rays, count, mode);
           if (lit != 0) {
-            sum.r += sum_lit(ray, fan.half_angles(), lit, sigma_t.r, medium);
-            if (!grey) {
-              sum.g += sum_lit(ray, fan.half_angles(), lit, sigma_t.g, medium);
-              sum.b += sum_lit(ray, fan.half_angles(), lit, sigma_t.b, medium);
+            LightColours colours;
+            if (state.light_texture) colours = look_up(*state.light_texture, rays, lit);
+            for (int channel = 0; channel < (grey ? 1 : 3); ++channel) {
+              sum[channel] += sum_lit(ray, fan.half_angles(), lit, sigma_t[channel], medium,
+                                      state.light_texture ? colours.values[channel] : nullptr);
             }
           }
           fan.advance();

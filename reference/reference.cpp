@@ -29,7 +29,9 @@ Reference::Reference(const scene::Geometry& geometry, const scene::View& view) {
                          .camera = camera,
                          .visibility = Visibility(geometry, view.light.position, camera.eye),
                          .eye = camera.eye - view.light.position,
-                         .quarter_pixel = 0.25 * pixel});
+                         .quarter_pixel = 0.25 * pixel,
+                         .light_texture = {}});
+  if (view.light.texture) state_->light_texture.emplace(*state_->view.light.texture);
 }
 
 Reference::~Reference() = default;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+
+#include "reference/light_texture.h"
 #include "reference/reference.h"
 #include "reference/view_ray.h"
 #include "reference/visibility.h"
@@ -12,8 +15,9 @@ struct Reference::State {
   scene::View view;
   scene::CameraFrame camera;
   Visibility visibility;
-  glm::dvec3 eye;        ///< relative to the light [m]
-  double quarter_pixel;  ///< the smallest α [rad]
+  glm::dvec3 eye;                            ///< relative to the light [m]
+  double quarter_pixel;                      ///< the smallest α [rad]
+  std::optional<LightLookup> light_texture;  ///< where the light has one
 
   /// Unit direction through the centre of a pixel.
   glm::dvec3 pixel_direction(int x, int y) const;
@@ -21,7 +25,8 @@ struct Reference::State {
   /// The view ray of a pixel, up to its first surface.
   ViewRay view_ray(int x, int y) const;
 
-  /// σ_s I / (D sin α): what the integral over φ is multiplied with, RGB.
+  /// σ_s I / (D sin α): what the integral over φ is multiplied with, RGB. A light's texture belongs under the
+  /// integral.
   glm::dvec3 airlight_scale(const ViewRay& ray) const;
 
   std::size_t index(int x, int y) const {

@@ -95,7 +95,10 @@ void validate(const View& view) {
   check_coefficient("medium, sigma-a", medium.sigma_a);
   if (!(std::abs(medium.g) < 1.0f))
     throw Error(ExitCode::bad_file, "medium, g", fmt::format("{:g} is not between -1 and 1", medium.g));
-  if (medium.phase > PhaseFunction::henyey_greenstein)
+  if (!(medium.rayleigh_weight >= 0.0f && medium.rayleigh_weight <= 1.0f))
+    throw Error(ExitCode::bad_file, "medium, rayleigh-weight",
+                fmt::format("{:g} is not between 0 and 1", medium.rayleigh_weight));
+  if (medium.phase > PhaseFunction::hoffman_preetham)
     throw Error(ExitCode::bad_file, "medium, phase",
                 fmt::format("there is no phase function {}", static_cast<std::uint32_t>(medium.phase)));
 }

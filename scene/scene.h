@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -64,14 +65,24 @@ struct CameraFrame {
 /// inside (0°, 180°), a value is not finite, or the image has no pixels.
 CameraFrame camera_frame(const Camera& camera, glm::ivec2 image_size);
 
-/// A light that radiates alike in all directions from one point.
+class LightTexture;
+
+/// A light that radiates from one point: alike in all directions, or as its texture says.
 struct PointLight {
   std::string name;
   glm::dvec3 position{0.0};   ///< world space [m]
   glm::vec3 intensity{1.0f};  ///< radiant intensity, RGB [W/sr]; candela of a glTF file are read one to one
+  /// Multiplies `intensity` by direction; nullptr for none.
+  std::shared_ptr<const LightTexture> texture = nullptr;
 };
 
-enum class PhaseFunction : std::uint32_t { isotropic = 0, rayleigh = 1, henyey_greenstein = 2 };
+/// `hoffman_preetham` mixes Rayleigh's function, of the air's molecules, with Henyey-Greenstein's, of haze.
+enum class PhaseFunction : std::uint32_t {
+  isotropic = 0,
+  rayleigh = 1,
+  henyey_greenstein = 2,
+  hoffman_preetham = 3,
+};
 
 /// A homogeneous participating medium that fills space.
 struct Medium {
@@ -79,6 +90,9 @@ struct Medium {
   glm::vec3 sigma_a{0.0f};  ///< absorption coefficient, RGB [1/m]
   PhaseFunction phase = PhaseFunction::isotropic;
   float g = 0.0f;  ///< mean cosine of Henyey-Greenstein, in (−1, 1); > 0 scatters forward
+  /// Of Hoffman-Preetham: the fraction of the scattered light that molecules scatter, in [0, 1]. Half, where
+  /// nothing is known: on a clear day that is about right for green light, in fog it is next to none.
+  float rayleigh_weight = 0.5f;
 };
 
 /// What an importer dropped or could not represent: shown to the user, kept with the results.
@@ -108,7 +122,8 @@ struct View {
 
 /// Checks what every method relies on.
 /// @throws Error (bad_file) when the light coincides with the eye, or a value of the view is out of its
-/// domain (not finite, negative intensity or coefficient, |g| ≥ 1); (usage) as `camera_frame`.
+/// domain (not finite, negative intensity or coefficient, |g| ≥ 1, a weight outside [0, 1]); (usage) as
+/// `camera_frame`.
 void validate(const View& view);
 
 /// A camera that sees all of the geometry, from the front (+Z), slightly above.

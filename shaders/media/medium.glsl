@@ -10,24 +10,37 @@
 // One uniform block (std140), written by media/medium.cpp.
 struct MediumBlock {
   vec3 sigma_s;          // scattering coefficient [1/m]
-  float g;               // mean cosine of Henyey-Greenstein
+  float g;               // mean cosine of Henyey-Greenstein, alone or as a part of Hoffman-Preetham
   vec3 sigma_t;          // extinction coefficient [1/m]
   float table_row_step;  // of the table integral: distance of its rows in α [rad]
   vec3 intensity;        // radiant intensity of the light [W/sr]
-  float padding;
+  float rayleigh_weight;  // of Hoffman-Preetham: the part that Rayleigh's function has, 0 to 1
 };
 
 CONST uint k_isotropic = 0u;
 CONST uint k_rayleigh = 1u;
 CONST uint k_henyey_greenstein = 2u;
+CONST uint k_hoffman_preetham = 3u;
+
+FUNCTION float rayleigh_phase(float cosine) { return 3.0f / (16.0f * k_pi) * (1.0f + cosine * cosine); }
+
+FUNCTION float henyey_greenstein_phase(float g, float cosine) {
+  float base = max(1.0f + g * g - 2.0f * g * cosine, 1e-12f);
+  return (1.0f - g * g) / (4.0f * k_pi * base * sqrt(base));
+}
 
 // Phase function [1/sr] of the scattering angle's cosine: 1 where light goes on in its direction. Each integrates to 1 over the
 // sphere.
-FUNCTION float phase_function(uint kind, float g, float cosine) {
-  if (kind == k_rayleigh) return 3.0f / (16.0f * k_pi) * (1.0f + cosine * cosine);
-  if (kind == k_henyey_greenstein) {
-    float base = max(1.0f + g * g - 2.0f * g * cosine, 1e-12f);
-    return (1.0f - g * g) / (4.0f * k_pi * base * sqrt(base));
+//
+// Hoffman-Preetham is what molecules and haze scatter together: Hoffman and Preetham, "Real-time light-atmosphere interactions
+// for outdoor scenes", Graphics Programming Methods, 2003. Deviation: their Henyey-Greenstein part has the numerator
+// (1 − g)², which integrates to (1 − g)/(1 + g); here it is 1 − g².
+FUNCTION float phase_function(uint kind, IN(MediumBlock) medium, float cosine) {
+  if (kind == k_rayleigh) return rayleigh_phase(cosine);
+  if (kind == k_henyey_greenstein) return henyey_greenstein_phase(medium.g, cosine);
+  if (kind == k_hoffman_preetham) {
+    return (1.0f - medium.rayleigh_weight) * henyey_greenstein_phase(medium.g, cosine) +
+           medium.rayleigh_weight * rayleigh_phase(cosine);
   }
   return 0.25f / k_pi;
 }
@@ -36,7 +49,7 @@ FUNCTION float phase_function(uint kind, float g, float cosine) {
 // right near π too. 0 from α + φ = π on, where the path is infinite.
 FUNCTION vec3 airlight_integrand(IN(EpipolarBlock) space, IN(MediumBlock) medium, uint kind, float complement, float phi) {
   float path = path_length(space, complement, phi);
-  return exp(-min(medium.sigma_t * path, vec3(80.0f))) * phase_function(kind, medium.g, -cos(complement - phi));
+  return exp(-min(medium.sigma_t * path, vec3(80.0f))) * phase_function(kind, medium, -cos(complement - phi));
 }
 
 // ∫ airlight_integrand dφ over a short interval, by the two-point Gauss–Legendre rule.

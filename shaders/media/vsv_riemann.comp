@@ -1,16 +1,31 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "frame/light_texture.glsl"
 #include "media/vsv_ray.glsl"
 
 // Airlight from the shadow volume as the paper sums it (Eq. 5), in φ instead of t: the integrand at the centre of every lit
 // cell. A cell counts whole when its centre lies before the end of the ray.
 layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 4) const uint k_light_textured = 0;
+layout(binding = 14) uniform sampler2D light_texture;
+
+// What the light radiates along the light ray at φ, relative to its intensity. `outward` is the direction in the plane of the
+// view ray at right angles to the axis.
+vec3 light_colour(vec3 outward, float phi) {
+  if (k_light_textured == 0u) return vec3(1.0);
+  vec3 d = sin(phi) * outward - cos(phi) * space.axis;
+  vec2 place = light_texture_place(angle_of(d.x, d.z), angle_of(d.y, length(d.xz)));
+  return textureLod(light_texture, place, 0.0).rgb;
+}
 
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(vec2(pixel), vec2(view.image_width, view.image_height)))) return;
   VsvRay ray = vsv_ray(pixel);
   float complement = alpha_complement(ray.angle);
+  vec3 direction = view_ray(view, vec2(pixel) + 0.5);
+  vec3 outward = dot(direction, space.u) * space.u + dot(direction, space.f) * space.f;
+  outward = outward == vec3(0.0) ? space.u : normalize(outward);
   vec3 sum = vec3(0.0);
   uvec4 words;
   uint before = ray.unknown;
@@ -24,7 +39,9 @@ void main() {
       lit &= lit - 1u;
       float phi = phi_of_cell(ray.cells, float(k) + 0.5);
       float width = phi_of_cell(ray.cells, float(k + 1u)) - phi_of_cell(ray.cells, float(k));
-      if (phi < ray.phi_end) sum += width * airlight_integrand(space, medium, k_phase, complement, phi);
+      if (phi < ray.phi_end) {
+        sum += width * airlight_integrand(space, medium, k_phase, complement, phi) * light_colour(outward, phi);
+      }
     }
   }
   vec3 radiance = airlight_scale(space, medium, ray.angle.sine) * sum;

@@ -5,6 +5,10 @@
 
 // Airlight from the shadow volume, exact up to the visibility bits: between two changes of visibility the integral is a
 // difference of two entries of the table, so a pixel costs as many look-ups as it sees changes, not samples.
+//
+// With k_factored, the factored visibility of Dobashi et al. 2002: the integral as if all of the ray were lit, times the lit
+// fraction of its samples. That takes one look-up a pixel, and does not ask where on the ray the shadow lies. The samples of the
+// paper are equal steps of φ; so that the result does not depend on how cells grow, the bits of a word weigh what it spans.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 13) uniform samplerBuffer table;  // vec2
 
@@ -12,6 +16,7 @@ layout(binding = 13) uniform samplerBuffer table;  // vec2
 // an interpolated table keeps no digits of their ratio. 0 for a view that does not reach there (media/vsv.cpp): llvmpipe
 // runs both sides of a branch.
 layout(constant_id = 6) const uint k_direct_cells = 0;
+layout(constant_id = 7) const uint k_factored = 0;
 const uint k_direct_parts = 4u;  // of such a cell: on an open ray the integrand falls to 0 within its last one
 
 // Sum of ±S over the changes of visibility of one word, by the two rows. The first change is from light to shadow.
@@ -51,6 +56,9 @@ void main() {
     float blend = row - floor(row);
     vec2 sum[3] = vec2[3](vec2(0.0), vec2(0.0), vec2(0.0));
     float sign = 1.0;  // + where light ends, − where it begins
+    float lit_range = 0.0;  // of φ, in any unit
+    float range = 0.0;
+    float word_start = 0.0;  // φ
     uint before = ray.unknown;  // the highest bit of the word before, in every place
     uint carry = 0u;            // the same as a bit; what lies before the first word counts as lit
     uint last_word = ray.last_cell >> 5;
@@ -59,12 +67,20 @@ void main() {
       if ((word & 3u) == 0u) words = texelFetch(grid_texels, ray.texel + int(word >> 2));
       uint shadow = seen_bits(ray, words.x, word, before);
       words.xyz = words.yzw;
-      uint changes = shadow ^ (shadow << 1 | carry);
-      carry = shadow >> 31;
-      if (word == last_word) changes &= low_bits((ray.last_cell & 31u) + 1u);
-      add_changes(changes, 32u * word, row_start, sign, sum);
+      uint before_end = word == last_word ? low_bits((ray.last_cell & 31u) + 1u) : 0xffffffffu;
+      if (k_factored != 0u) {
+        float word_end = phi_of_cell(ray.cells, float(32u * word + 32u));
+        float weight = word_end - word_start;
+        word_start = word_end;
+        lit_range += weight * float(bitCount(~shadow & before_end));
+        range += weight * float(bitCount(before_end));
+      } else {
+        uint changes = shadow ^ (shadow << 1 | carry);
+        carry = shadow >> 31;
+        add_changes(changes & before_end, 32u * word, row_start, sign, sum);
+      }
     }
-    // The ray ends in light: close the last lit run.
+    // The ray ends in light: close the last lit run. (Factored, it is the only one.)
     if (sign > 0.0) {
       uint entry = row_start + ray.last_cell * k_channels;
       float within = ray.is_open ? 1.0 : clamp(ray.end - float(ray.last_cell), 0.0, 1.0);
@@ -77,6 +93,7 @@ void main() {
       vec2 rows = sum[min(channel, k_channels - 1u)];
       integral[channel] = mix(rows.x, rows.y, blend);
     }
+    if (k_factored != 0u) integral *= lit_range / range;
   }
   vec3 radiance = airlight_scale(space, medium, ray.angle.sine) * max(integral, vec3(0.0));
   imageStore(airlight_image, pixel, vec4(radiance, 1.0));

@@ -60,6 +60,7 @@ constexpr Function k_functions[] = {
     {"phase isotropic", 1, k_single, 0},
     {"phase rayleigh", 1, k_single, 0},
     {"phase henyey-greenstein", 1, k_single, 0},
+    {"phase hoffman-preetham", 1, k_single, 0},
     {"airlight_integrand", 3, k_single, 2e-7},  // e^{−x}: a relative error of x is one of x times as much
     {"integrate_cell", 3, k_single, 2e-8},
     {"airlight_scale", 3, k_single, 0},
@@ -75,6 +76,7 @@ constexpr Function k_functions[] = {
     {"ray_triangle_distance", 1, 1e-5, 1e-5},  // of a plane seen at up to 80° from its normal
     {"phi_of_cell", 1, k_single, 0},
     {"cell_of_phi", 1, k_single, 0},
+    {"light_texture_place", 2, k_single, 1e-6},  // ½ minus an angle
 };
 
 std::vector<Inputs> random_inputs(int count) {

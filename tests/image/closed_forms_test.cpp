@@ -55,11 +55,13 @@ class ClosedForm : public testing::TestWithParam<media::VsvIntegral> {
 };
 
 TEST_P(ClosedForm, EmptyFogGlowsAroundTheLamp) {
-  for (scene::PhaseFunction phase : {scene::PhaseFunction::isotropic, scene::PhaseFunction::rayleigh,
-                                     scene::PhaseFunction::henyey_greenstein}) {
+  for (scene::PhaseFunction phase :
+       {scene::PhaseFunction::isotropic, scene::PhaseFunction::rayleigh,
+        scene::PhaseFunction::henyey_greenstein, scene::PhaseFunction::hoffman_preetham}) {
     scene::View view = tests::view_of(tests::builtin("empty"), {16, 16});
     view.medium.phase = phase;
     view.medium.g = 0.6f;
+    view.medium.rayleigh_weight = 0.3f;
     const auto expected = expected_image(view, [](glm::dvec3, glm::dvec3) {
       return std::vector<Lit>{{0, k_infinity}};
     });

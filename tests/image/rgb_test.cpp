@@ -43,10 +43,8 @@ TEST_P(RgbMedium, GivesEachChannelWhatAGreyMediumOfItsOwnWould) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrals, RgbMedium,
-                         testing::Values(media::VsvIntegral::table, media::VsvIntegral::riemann),
-                         [](const auto& test) {
-                           return test.param == media::VsvIntegral::table ? "table" : "riemann";
-                         });
+                         testing::Values(media::VsvIntegral::table, media::VsvIntegral::riemann,
+                                         media::VsvIntegral::factored));
 
 TEST(RgbMediumReference, AgreesInEveryChannel) {
   const scene::Scene& scene = tests::builtin("cornell");

@@ -1,12 +1,13 @@
 // Calls every function that the shaders share with C++, on one set of inputs: on the GPU and on the CPU.
 #ifndef AIRLIGHT_EVERY_FUNCTION_GLSL
 #define AIRLIGHT_EVERY_FUNCTION_GLSL
+#include "frame/light_texture.glsl"
 #include "frame/shadow_cube.glsl"
 #include "frame/view.glsl"
 #include "epipolar/grid.glsl"
 #include "media/medium.glsl"
 
-CONST uint k_outputs = 58u;
+CONST uint k_outputs = 61u;
 
 struct Inputs {
   vec4 a;  // axis, D
@@ -62,7 +63,7 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   medium.sigma_t = vec3(0.15f, 0.2f, 0.4f);
   medium.table_row_step = 0.0f;
   medium.intensity = vec3(5.0f, 6.0f, 7.0f);
-  medium.padding = 0.0f;
+  medium.rayleigh_weight = 0.3f;
 
   ViewBlock view;
   view.eye_high = 100.0f * ray;
@@ -105,34 +106,38 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   put(outputs, at, float(alpha_cell(space, alpha, 512u)));
   put(outputs, at, float(first_shadowed_cell(space, alpha, 512u)));
   put(outputs, at, float(grid_word(uint(100.0f * alpha), uint(100.0f * phi), 3u, 512u, 16u)));
-  put(outputs, at, phase_function(k_isotropic, g, ray.x));  // 22
-  put(outputs, at, phase_function(k_rayleigh, g, ray.x));
-  put(outputs, at, phase_function(k_henyey_greenstein, g, ray.x));
-  put(outputs, at, airlight_integrand(space, medium, k_henyey_greenstein, complement, phi));  // 25
+  put(outputs, at, phase_function(k_isotropic, medium, ray.x));  // 22
+  put(outputs, at, phase_function(k_rayleigh, medium, ray.x));
+  put(outputs, at, phase_function(k_henyey_greenstein, medium, ray.x));
+  put(outputs, at, phase_function(k_hoffman_preetham, medium, ray.x));
+  put(outputs, at, airlight_integrand(space, medium, k_henyey_greenstein, complement, phi));  // 26
   put(outputs, at, integrate_cell(space, medium, k_rayleigh, complement, 0.9f * phi, phi));
   put(outputs, at, airlight_scale(space, medium, given.sine));
   CubePoint point = cube_point(any_vector);
-  put(outputs, at, float(point.face));  // 34
+  put(outputs, at, float(point.face));  // 35
   put(outputs, at, point.uv.x);
   put(outputs, at, point.uv.y);
   put(outputs, at, point.depth);
   put(outputs, at, cube_direction(point.face, point.uv));
   ivec2 texel = cube_texel(point.uv, 512.0f);
-  put(outputs, at, float(texel.x));  // 41
+  put(outputs, at, float(texel.x));  // 42
   put(outputs, at, float(texel.y));
   vec2 centre = cube_texel_centre(texel, 512.0f);
   put(outputs, at, centre.x);
   put(outputs, at, centre.y);
-  put(outputs, at, view_ray(view, vec2(100.0f * alpha, 60.0f * phi)));  // 45
+  put(outputs, at, view_ray(view, vec2(100.0f * alpha, 60.0f * phi)));  // 46
   put(outputs, at, quarter_pixel(view));
   put(outputs, at, eye_relative(view, 100.0f * ray + 0.01f * any_vector));
-  put(outputs, at, ray_triangle_distance(l, t * l + space.u, t * l - 2.0f * space.f, 2.0f * t * l - space.u + space.f));  // 53
+  put(outputs, at, ray_triangle_distance(l, t * l + space.u, t * l - 2.0f * space.f, 2.0f * t * l - space.u + space.f));  // 54
   PhiCells cells;
   cells.phi_max = complement;
   cells.growth = 1.0f + g;
   cells.count = 512.0f;
   put(outputs, at, phi_of_cell(cells, 100.0f * alpha));
   put(outputs, at, cell_of_phi(cells, phi));
+  vec2 place = light_texture_place(theta, 0.5f * theta);
+  put(outputs, at, place.x);
+  put(outputs, at, place.y);
 }
 
 #endif

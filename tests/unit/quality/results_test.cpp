@@ -89,6 +89,16 @@ TEST(ViewOptions, ReadBackToTheSameNumbers) {
   EXPECT_EQ(options.at("eye"), "0.1,0.3333333333333333,-1e-07");
   EXPECT_EQ(options.at("sigma-s"), "0.1,0.33333334,2");
   EXPECT_EQ(options.at("size"), "512x512");
+  EXPECT_FALSE(options.contains("rayleigh-weight"));
+}
+
+TEST(ViewOptions, NameTheWeightOfAPhaseFunctionThatHasOne) {
+  Comparison comparison = two_runs();
+  scene::Medium& medium = comparison.view.medium;
+  medium = {.phase = scene::PhaseFunction::hoffman_preetham, .g = 0.8f, .rayleigh_weight = 0.3f};
+  EXPECT_EQ(view_options(comparison.view).at("phase"), "hoffman-preetham");
+  EXPECT_EQ(view_options(comparison.view).at("rayleigh-weight"), "0.3");
+  EXPECT_EQ(json::parse(results_json(comparison))["view"]["medium"]["rayleigh_weight"], 0.3);
 }
 
 TEST(WriteText, NamesTheFileThatCannotBeWritten) {

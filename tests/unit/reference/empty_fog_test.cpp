@@ -37,6 +37,11 @@ std::vector<scene::Medium> media() {
     result.push_back(
         {.sigma_s = coloured, .sigma_a = absorbing, .phase = PhaseFunction::henyey_greenstein, .g = g});
   }
+  result.push_back({.sigma_s = coloured,
+                    .sigma_a = absorbing,
+                    .phase = PhaseFunction::hoffman_preetham,
+                    .g = 0.9f,
+                    .rayleigh_weight = 0.2f});
   return result;
 }
 

@@ -112,8 +112,7 @@ inline glm::dvec3 airlight_over_distance(const scene::View& view, double alpha, 
     const auto integrand = [&](double t) {
       const double r = std::hypot(t - nearest_t, nearest_r);
       const double cosine = (nearest_t - t) / r;
-      return sigma_s * std::exp(-sigma_t * (t + r)) *
-             phase(view.medium.phase, static_cast<double>(view.medium.g), cosine) *
+      return sigma_s * std::exp(-sigma_t * (t + r)) * phase(view.medium, cosine) *
              static_cast<double>(view.light.intensity[channel]) / (r * r);
     };
     const double end = std::min(t_to, t_from + 60 / sigma_t + 2 * D);

@@ -151,6 +151,8 @@ TEST(Validate, RefusesWhatNoMethodCanRender) {
   expect_refused(bad, "sigma-a", [](View& v) { v.medium.sigma_a.y = -0.1f; });
   for (float g : {1.0f, -1.0f, 2.0f, k_nan_f})
     expect_refused(bad, "medium, g", [&](View& v) { v.medium.g = g; });
+  for (float weight : {-0.1f, 1.1f, k_nan_f})
+    expect_refused(bad, "rayleigh-weight", [&](View& v) { v.medium.rayleigh_weight = weight; });
   expect_refused(bad, "phase function 7", [](View& v) { v.medium.phase = static_cast<PhaseFunction>(7); });
   expect_refused(ExitCode::usage, "no pixels", [](View& v) { v.size.x = 0; });
 }

@@ -33,40 +33,50 @@ double over_cosines(const Function& f) {
   return sum;
 }
 
+MediumBlock make_medium(glm::vec3 sigma_t, float g, float rayleigh_weight = 0.0f) {
+  MediumBlock medium{};
+  medium.sigma_s = sigma_t;
+  medium.sigma_t = sigma_t;
+  medium.g = g;
+  medium.rayleigh_weight = rayleigh_weight;
+  medium.intensity = {1, 2, 3};
+  return medium;
+}
+
 struct Phase {
   const char* name;
   uint kind;
   float g;
   double mean_cosine;
+  float rayleigh_weight = 0.0f;
+
+  float at(double cosine) const {
+    return phase_function(kind, make_medium({}, g, rayleigh_weight), static_cast<float>(cosine));
+  }
 };
 
 void PrintTo(const Phase& phase, std::ostream* stream) {
-  *stream << phase.name << " " << phase.g;
+  *stream << phase.name << " " << phase.g << " " << phase.rayleigh_weight;
 }
 
 class PhaseFunction : public testing::TestWithParam<Phase> {};
 
 TEST_P(PhaseFunction, IntegratesToOneOverTheSphere) {
   const Phase& phase = GetParam();
-  const double sum = 2 * pi * over_cosines([&](double cosine) {
-                       return exact(phase_function(phase.kind, phase.g, static_cast<float>(cosine)));
-                     });
+  const double sum = 2 * pi * over_cosines([&](double cosine) { return exact(phase.at(cosine)); });
   // 1 + g² − 2g cos θ has lost (1 − g)² of its digits at the tip of the lobe.
   EXPECT_NEAR(sum, 1.0, 2e-7 / std::pow(1.0 - std::abs(exact(phase.g)), 1.5));
 }
 
 TEST_P(PhaseFunction, HasTheMeanCosineG) {
   const Phase& phase = GetParam();
-  const double mean =
-      2 * pi * over_cosines([&](double cosine) {
-        return cosine * exact(phase_function(phase.kind, phase.g, static_cast<float>(cosine)));
-      });
+  const double mean = 2 * pi * over_cosines([&](double cosine) { return cosine * exact(phase.at(cosine)); });
   EXPECT_NEAR(mean, phase.mean_cosine, 2e-7 / std::pow(1.0 - std::abs(exact(phase.g)), 1.5));
 }
 
 TEST_P(PhaseFunction, IsPositive) {
   for (int i = 0; i <= 1000; ++i) {
-    EXPECT_GT(phase_function(GetParam().kind, GetParam().g, static_cast<float>(i) / 500.0f - 1.0f), 0.0f);
+    EXPECT_GT(GetParam().at(i / 500.0 - 1.0), 0.0f);
   }
 }
 
@@ -79,37 +89,48 @@ INSTANTIATE_TEST_SUITE_P(Kinds, PhaseFunction,
                                          Phase{"henyey_greenstein", k_henyey_greenstein, 0.5f, 0.5},
                                          Phase{"henyey_greenstein", k_henyey_greenstein, -0.5f, -0.5},
                                          Phase{"henyey_greenstein", k_henyey_greenstein, 0.9f, 0.9},
-                                         Phase{"henyey_greenstein", k_henyey_greenstein, 0.99f, 0.99}));
+                                         Phase{"henyey_greenstein", k_henyey_greenstein, 0.99f, 0.99},
+                                         Phase{"hoffman_preetham", k_hoffman_preetham, 0.0f, 0.0, 0.3f},
+                                         Phase{"hoffman_preetham", k_hoffman_preetham, 0.5f, 0.375, 0.25f},
+                                         Phase{"hoffman_preetham", k_hoffman_preetham, -0.5f, -0.25, 0.5f},
+                                         Phase{"hoffman_preetham", k_hoffman_preetham, 0.9f, 0.09, 0.9f}));
 
 TEST(PhaseValues, AreThoseOfTheBooks) {
-  EXPECT_FLOAT_EQ(phase_function(k_isotropic, 0.0f, 0.3f), static_cast<float>(1 / (4 * pi)));
-  EXPECT_FLOAT_EQ(phase_function(k_rayleigh, 0.0f, 1.0f), static_cast<float>(3 / (8 * pi)));
-  EXPECT_FLOAT_EQ(phase_function(k_rayleigh, 0.0f, 0.0f), static_cast<float>(3 / (16 * pi)));
-  EXPECT_FLOAT_EQ(phase_function(k_henyey_greenstein, 0.0f, 0.7f), static_cast<float>(1 / (4 * pi)));
-  EXPECT_FLOAT_EQ(phase_function(k_henyey_greenstein, 0.5f, 1.0f),
+  EXPECT_FLOAT_EQ((Phase{"", k_isotropic, 0.0f, 0}.at(0.3)), static_cast<float>(1 / (4 * pi)));
+  EXPECT_FLOAT_EQ((Phase{"", k_rayleigh, 0.0f, 0}.at(1)), static_cast<float>(3 / (8 * pi)));
+  EXPECT_FLOAT_EQ((Phase{"", k_rayleigh, 0.0f, 0}.at(0)), static_cast<float>(3 / (16 * pi)));
+  EXPECT_FLOAT_EQ((Phase{"", k_henyey_greenstein, 0.0f, 0}.at(0.7)), static_cast<float>(1 / (4 * pi)));
+  EXPECT_FLOAT_EQ((Phase{"", k_henyey_greenstein, 0.5f, 0}.at(1)),
                   static_cast<float>(0.75 / (4 * pi * 0.125)));
-  EXPECT_FLOAT_EQ(phase_function(k_henyey_greenstein, 0.5f, -1.0f),
+  EXPECT_FLOAT_EQ((Phase{"", k_henyey_greenstein, 0.5f, 0}.at(-1)),
                   static_cast<float>(0.75 / (4 * pi * 3.375)));
+  EXPECT_FLOAT_EQ((Phase{"", k_hoffman_preetham, 0.5f, 0, 0.25f}.at(1)),
+                  static_cast<float>(0.75 * 0.75 / (4 * pi * 0.125) + 0.25 * 3 / (8 * pi)));
 }
 
-double phase_in_double(uint kind, double g, double cosine) {
-  if (kind == k_rayleigh) return 3 / (16 * pi) * (1 + cosine * cosine);
-  if (kind == k_henyey_greenstein) return (1 - g * g) / (4 * pi * std::pow(1 + g * g - 2 * g * cosine, 1.5));
+TEST(PhaseValues, OfHoffmanPreethamAtTheEndsOfItsWeightAreThoseOfItsParts) {
+  for (double cosine : {-1.0, -0.3, 0.0, 0.8, 1.0}) {
+    EXPECT_EQ((Phase{"", k_hoffman_preetham, 0.6f, 0, 0.0f}.at(cosine)),
+              (Phase{"", k_henyey_greenstein, 0.6f, 0}.at(cosine)));
+    EXPECT_EQ((Phase{"", k_hoffman_preetham, 0.6f, 0, 1.0f}.at(cosine)),
+              (Phase{"", k_rayleigh, 0.6f, 0}.at(cosine)));
+  }
+}
+
+double phase_in_double(uint kind, const MediumBlock& medium, double cosine) {
+  const double g = exact(medium.g), weight = exact(medium.rayleigh_weight);
+  const double rayleigh = 3 / (16 * pi) * (1 + cosine * cosine);
+  const double henyey_greenstein = (1 - g * g) / (4 * pi * std::pow(1 + g * g - 2 * g * cosine, 1.5));
+  if (kind == k_rayleigh) return rayleigh;
+  if (kind == k_henyey_greenstein) return henyey_greenstein;
+  if (kind == k_hoffman_preetham) return (1 - weight) * henyey_greenstein + weight * rayleigh;
   return 1 / (4 * pi);
 }
 
-double integrand_in_double(double D, double sigma, uint kind, double g, double complement, double phi) {
+double integrand_in_double(double D, double sigma, uint kind, const MediumBlock& medium, double complement,
+                           double phi) {
   const double path = D * std::sin(0.5 * (complement + phi)) / std::sin(0.5 * (complement - phi));
-  return std::exp(-sigma * path) * phase_in_double(kind, g, -std::cos(complement - phi));
-}
-
-MediumBlock make_medium(glm::vec3 sigma_t, float g) {
-  MediumBlock medium{};
-  medium.sigma_s = sigma_t;
-  medium.sigma_t = sigma_t;
-  medium.g = g;
-  medium.intensity = {1, 2, 3};
-  return medium;
+  return std::exp(-sigma * path) * phase_in_double(kind, medium, -std::cos(complement - phi));
 }
 
 TEST(AirlightIntegrand, EqualsTheDoublePrecisionOne) {
@@ -117,16 +138,16 @@ TEST(AirlightIntegrand, EqualsTheDoublePrecisionOne) {
   for (int i = 0; i < 30000; ++i) {
     EpipolarBlock space{};
     space.distance = static_cast<float>(random.logarithmic(0.1, 100));
-    const uint kind = random.bits() % 3;
+    const uint kind = random.bits() % 4;
     const MediumBlock medium = make_medium(glm::vec3(random.logarithmic(1e-4, 0.1), 0.01, 0.0),
-                                           static_cast<float>(random.uniform(-0.8, 0.8)));
+                                           static_cast<float>(random.uniform(-0.8, 0.8)), 0.4f);
     const auto complement = static_cast<float>(random.uniform(1e-3, 3.14));
     const auto phi = complement * static_cast<float>(random.uniform(0.0, 0.99));
     const glm::vec3 value = airlight_integrand(space, medium, kind, complement, phi);
     for (int channel = 0; channel < 3; ++channel) {
       const double sigma = exact(medium.sigma_t[channel]);
-      const double expected = integrand_in_double(exact(space.distance), sigma, kind, exact(medium.g),
-                                                  exact(complement), exact(phi));
+      const double expected =
+          integrand_in_double(exact(space.distance), sigma, kind, medium, exact(complement), exact(phi));
       if (expected < 1e-30) continue;
       const double depth = -std::log(expected * 4 * pi);
       // e^{−x} turns a relative error of x into one of x times as much.
@@ -157,9 +178,9 @@ TEST(IntegrateCell, MatchesHighOrderQuadratureOnTheCellsOfAGrid) {
   for (int i = 0; i < 3000; ++i) {
     EpipolarBlock space{};
     space.distance = static_cast<float>(random.logarithmic(0.5, 20));
-    const uint kind = random.bits() % 3;
+    const uint kind = random.bits() % 4;
     const MediumBlock medium = make_medium(glm::vec3(static_cast<float>(random.logarithmic(1e-3, 0.5))),
-                                           static_cast<float>(random.uniform(-0.7, 0.7)));
+                                           static_cast<float>(random.uniform(-0.7, 0.7)), 0.4f);
     const double complement = random.uniform(0.5, 3.1);
     const double width = pi / 512;
     const double from = random.uniform(0, 0.9) * complement, to = std::min(from + width, 0.97 * complement);
@@ -174,7 +195,7 @@ TEST(IntegrateCell, MatchesHighOrderQuadratureOnTheCellsOfAGrid) {
       const double middle = exact(single_from) + (panel + 0.5) * h, offset = 0.5 * h / std::sqrt(3.0);
       for (double phi : {middle - offset, middle + offset}) {
         expected += 0.5 * h *
-                    integrand_in_double(exact(space.distance), exact(medium.sigma_t.x), kind, exact(medium.g),
+                    integrand_in_double(exact(space.distance), exact(medium.sigma_t.x), kind, medium,
                                         exact(static_cast<float>(complement)), phi);
       }
     }
@@ -192,7 +213,7 @@ TEST(IntegrateCell, SumsToTheIntegralOfTheWholeRay) {
   for (int i = 0; i < 1000; ++i) {
     EpipolarBlock space{};
     space.distance = 1.0f;
-    const uint kind = random.bits() % 3;
+    const uint kind = random.bits() % 4;
     const MediumBlock medium = make_medium(glm::vec3(static_cast<float>(random.logarithmic(1e-3, 3))), 0.6f);
     const auto complement = static_cast<float>(random.logarithmic(1e-3, 3.1));
     double sum = 0.0;
@@ -208,8 +229,7 @@ TEST(IntegrateCell, SumsToTheIntegralOfTheWholeRay) {
                    offset = 0.5 * h / std::sqrt(3.0);
       for (double phi : {middle - offset, middle + offset}) {
         expected +=
-            0.5 * h *
-            integrand_in_double(1.0, exact(medium.sigma_t.x), kind, exact(medium.g), exact(complement), phi);
+            0.5 * h * integrand_in_double(1.0, exact(medium.sigma_t.x), kind, medium, exact(complement), phi);
       }
     }
     // The last cell of an endless ray ends where the path becomes infinite, a singularity that no polynomial
