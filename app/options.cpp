@@ -33,7 +33,7 @@ std::string scene_help() {
   for (const scene::BuiltinScene& builtin : scene::builtin_scenes()) {
     names += fmt::format("{}{}", names.empty() ? "" : ", ", builtin.name);
   }
-  return fmt::format("use a built-in scene ({}) or a .gltf, .glb or .obj file", names);
+  return fmt::format("use a built-in scene ({}) or a .gltf, .glb, .obj or .ply file", names);
 }
 
 struct Loaded {
@@ -44,7 +44,7 @@ struct Loaded {
 Loaded load_scene(const std::string& name) {
   if (const scene::BuiltinScene* builtin = scene::find_builtin(name)) return {builtin->make(), true};
   const std::filesystem::path file(name);
-  if (file.extension() == ".toml" || file.extension() == ".ply") {
+  if (file.extension() == ".toml") {
     throw usage(name, fmt::format("{} files are not built yet", file.extension().string()), scene_help());
   }
   if (std::error_code error; !file.has_extension() && !std::filesystem::exists(file, error)) {

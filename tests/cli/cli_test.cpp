@@ -183,7 +183,6 @@ INSTANTIATE_TEST_SUITE_P(
                     Misuse{{"render", "cornell", "-o", "x.jpg"}, ".exr"}, Misuse{{"scenes", "more"}, "more"},
                     Misuse{{"render", "cornell", "more", "-o", "x.exr"}, "more"},
                     Misuse{{"render", "shot.toml", "-o", "x.exr"}, "not built yet"},
-                    Misuse{{"render", "mesh.ply", "-o", "x.exr"}, "not built yet"},
                     Misuse{{"--debug"}, "--debug"}, Misuse{{"--light-texture", "x.exr"}, "--light-texture"},
                     Misuse{{"--max-error", "1"}, "--max-error"}, Misuse{{"--frames", "3"}, "--frames"},
                     Misuse{{"--fov", "30", "--fov", "40"}, "--fov"},
@@ -237,7 +236,7 @@ INSTANTIATE_TEST_SUITE_P(
 using BadFile = CommandLine;
 
 TEST_F(BadFile, MissingSceneIsNamed) {
-  for (const char* scene : {"nosuch", "nosuch.glb", "nosuch.obj", "nosuch.xyz"}) {
+  for (const char* scene : {"nosuch", "nosuch.glb", "nosuch.obj", "nosuch.ply", "nosuch.xyz"}) {
     const Result result = airlight({"render", scene, "-o", "x.exr"});
     expect_one_line_error(result, 3);
     EXPECT_THAT(result.err, HasSubstr(scene));
