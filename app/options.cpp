@@ -36,13 +36,45 @@ std::string scene_help() {
   return fmt::format("use a built-in scene ({}) or a .gltf, .glb, .obj or .ply file", names);
 }
 
+std::string triangles_help() {
+  std::string scenes;
+  for (const scene::BuiltinScene& builtin : scene::builtin_scenes()) {
+    if (!builtin.count) continue;
+    scenes += fmt::format("; {}: at least {}, rounded {} (default: {})", builtin.name, builtin.count->fewest,
+                          builtin.count->rounding, builtin.count->usual);
+  }
+  return "about how many triangles a built-in scene has" + scenes;
+}
+
 struct Loaded {
   scene::Scene scene;
   bool is_builtin;
 };
 
-Loaded load_scene(const std::string& name) {
-  if (const scene::BuiltinScene* builtin = scene::find_builtin(name)) return {builtin->make(), true};
+/// --triangles. @throws Error (usage) where the scene's count is fixed or cannot be that
+std::optional<std::size_t> choose_triangles(const Options& options, const scene::BuiltinScene* builtin) {
+  const auto text = options.get("triangles");
+  if (!text) return std::nullopt;
+  if (!builtin || !builtin->count) {
+    std::string names;
+    for (const scene::BuiltinScene& other : scene::builtin_scenes())
+      if (other.count) names += fmt::format("{}{}", names.empty() ? "" : ", ", other.name);
+    throw usage("--triangles", fmt::format("the triangles of {} are given", options.scene),
+                fmt::format("it goes with {}", names));
+  }
+  const auto count = static_cast<std::size_t>(quality::parse_count("--triangles", *text));
+  if (count < builtin->count->fewest || count > scene::k_most_triangles) {
+    throw usage("--triangles", fmt::format("'{}' is not between {} and {}", *text, builtin->count->fewest,
+                                           scene::k_most_triangles));
+  }
+  return count;
+}
+
+Loaded load_scene(const Options& options) {
+  const std::string& name = options.scene;
+  const scene::BuiltinScene* builtin = scene::find_builtin(name);
+  const auto triangles = choose_triangles(options, builtin);
+  if (builtin) return {builtin->make(triangles), true};
   const std::filesystem::path file(name);
   if (file.extension() == ".toml") {
     throw usage(name, fmt::format("{} files are not built yet", file.extension().string()), scene_help());
@@ -168,6 +200,7 @@ void override_albedo(const std::string& text, scene::Geometry& geometry) {
 std::span<const OptionLine> common_options() {
   static const std::vector<OptionLine> options = [] {
     std::vector<OptionLine> lines = {
+        {"triangles", "N", triangles_help()},
         {"camera", "NAME|N",
          "one of the scene's cameras, by name or number from 0 (default: the first; without one, the view is "
          "fitted)"},
@@ -219,7 +252,7 @@ Subject make_subject(const Options& options) {
     if (*exposure <= 0.0f) throw usage("--exposure", fmt::format("'{}' is not positive", *text));
   }
 
-  Loaded loaded = load_scene(options.scene);
+  Loaded loaded = load_scene(options);
   Subject subject{std::move(loaded.scene), {}, exposure};
   if (!exposure && loaded.is_builtin) subject.exposure = subject.scene.exposure;
   subject.view = {choose_camera(options, subject.scene), choose_light(options, subject.scene),

@@ -131,7 +131,8 @@ TEST_F(Commands, HelpAndVersionAreData) {
 TEST_F(Commands, ScenesListsEveryBuiltinScene) {
   const Result result = airlight({"scenes"});
   EXPECT_EQ(result.exit_code, 0);
-  for (const char* name : {"window", "cornell", "empty", "half-space", "sphere"}) {
+  for (const char* name :
+       {"window", "fence", "spheres", "toroid", "cornell", "empty", "half-space", "sphere"}) {
     EXPECT_THAT(result.out, HasSubstr(name));
   }
   EXPECT_THAT(result.err, IsEmpty());
@@ -217,6 +218,11 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Choices, Usage,
     testing::Values(
+        Misuse{{"--triangles", "5000"}, "spheres, toroid"},
+        Misuse{{"render", "mesh.ply", "-o", "x.exr", "--triangles", "5000"}, "spheres, toroid"},
+        Misuse{{"render", "spheres", "-o", "x.exr", "--triangles", "1999"}, "2000 and 100000000"},
+        Misuse{{"render", "toroid", "-o", "x.exr", "--triangles", "100000001"}, "--triangles"},
+        Misuse{{"render", "toroid", "-o", "x.exr", "--triangles", "5e4"}, "--triangles"},
         Misuse{{"--camera", "back"}, "front"}, Misuse{{"--camera", "1"}, "front"},
         Misuse{{"--light", "sun"}, "ceiling"}, Misuse{{"--light", "99999999999999999999"}, "ceiling"},
         Misuse{{"--eye", "0,0,1"}, "--target"}, Misuse{{"--target", "0,0,1"}, "--eye"},
@@ -392,6 +398,12 @@ TEST_F(Render, CameraOptionsMoveTheView) {
   EXPECT_NE(distance({"--fov", "60"}), own);
   EXPECT_NE(distance({"--eye", "-0.5,1,4.2", "--target", "0,1,0", "--fov", "38"}), own);
   EXPECT_NE(distance({"--up", "1,0,0"}), own);
+}
+
+TEST_F(Render, TrianglesSetTheDetailOfAScene) {
+  const Image coarse = render({"spheres", "--triangles", "2000"});
+  EXPECT_NE(coarse.channels, render({"spheres", "--triangles", "8000"}).channels);
+  EXPECT_EQ(render({"toroid", "--triangles", "50000"}).channels, render({"toroid"}).channels);
 }
 
 TEST_F(Render, ExposureIsThatOfThePreviewAlone) {
