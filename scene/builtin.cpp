@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include <fmt/format.h>
+
 #include "scene/builtin_internal.h"
 
 namespace airlight::scene {
@@ -38,6 +40,7 @@ Scene make_empty() {
   scene.cameras.push_back({"front", {0.0, 0.0, 5.0}, {0.4, 0.3, 0.0}, {0.0, 1.0, 0.0}, 45.0});
   scene.lights.push_back({"lamp", {0.0, 0.0, 0.0}, glm::vec3(10.0f)});
   scene.medium.sigma_s = glm::vec3(0.1f);
+  scene.exposure = 1.0f;
   return scene;
 }
 
@@ -125,6 +128,18 @@ const BuiltinScene* find_builtin(std::string_view name) {
   for (const BuiltinScene& scene : k_scenes)
     if (scene.name == name) return &scene;
   return nullptr;
+}
+
+std::string count_problem(const BuiltinScene* scene, std::string_view name, std::size_t triangles) {
+  if (!scene || !scene->count) {
+    std::string names;
+    for (const BuiltinScene& other : k_scenes)
+      if (other.count) names += fmt::format("{}{}", names.empty() ? "" : ", ", other.name);
+    return fmt::format("the triangles of {} are given; only a built-in scene's can be set ({})", name, names);
+  }
+  if (triangles < scene->count->fewest || triangles > k_most_triangles)
+    return fmt::format("{} is not between {} and {}", triangles, scene->count->fewest, k_most_triangles);
+  return {};
 }
 
 }  // namespace airlight::scene

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "scene/scene.h"
@@ -40,5 +41,10 @@ std::span<const BuiltinScene> builtin_scenes();
 
 /// @returns the built-in scene of that name, or nullptr.
 const BuiltinScene* find_builtin(std::string_view name);
+
+/// What is wrong with asking the scene of that name for so many triangles, and what can be asked for; empty
+/// where nothing is.
+/// @param scene nullptr where it is not built in
+std::string count_problem(const BuiltinScene* scene, std::string_view name, std::size_t triangles);
 
 }  // namespace airlight::scene

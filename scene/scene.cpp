@@ -48,6 +48,27 @@ Box bounds(const Geometry& geometry) {
   return box;
 }
 
+std::string phase_name(PhaseFunction phase) {
+  switch (phase) {
+    case PhaseFunction::isotropic:
+      return "isotropic";
+    case PhaseFunction::rayleigh:
+      return "rayleigh";
+    case PhaseFunction::henyey_greenstein:
+      return "henyey-greenstein";
+  }
+  return {};
+}
+
+PhaseFunction phase_of_name(const std::string& where, std::string_view name) {
+  using enum PhaseFunction;
+  for (PhaseFunction phase : {isotropic, rayleigh, henyey_greenstein})
+    if (phase_name(phase) == name) return phase;
+  throw Error(ExitCode::usage, where,
+              fmt::format("'{}' is {}", name, name == "hoffman-preetham" ? "not built yet" : "unknown"),
+              "use isotropic, rayleigh or henyey-greenstein");
+}
+
 CameraFrame camera_frame(const Camera& camera, glm::ivec2 image_size) {
   const std::string where = camera.name.empty() ? "camera" : fmt::format("camera '{}'", camera.name);
   const auto refuse = [&](const std::string& problem) -> Error { return {ExitCode::usage, where, problem}; };
@@ -98,6 +119,11 @@ void validate(const View& view) {
   if (medium.phase > PhaseFunction::henyey_greenstein)
     throw Error(ExitCode::bad_file, "medium, phase",
                 fmt::format("there is no phase function {}", static_cast<std::uint32_t>(medium.phase)));
+}
+
+void override_albedo(Geometry& geometry, glm::vec3 albedo) {
+  geometry.materials = {{albedo}};
+  std::fill(geometry.material_of_triangle.begin(), geometry.material_of_triangle.end(), 0u);
 }
 
 Camera fit_camera(const Geometry& geometry) {

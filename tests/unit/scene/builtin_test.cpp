@@ -85,7 +85,7 @@ TEST_P(EachBuiltin, IsCompleteAndKeepsTheContractOfGeometry) {
 
   const Scene scene = builtin->make();
   EXPECT_EQ(scene.name, GetParam());
-  EXPECT_GT(scene.exposure, 0.0f);
+  EXPECT_GT(scene.exposure.value_or(0.0f), 0.0f);
   ASSERT_EQ(scene.cameras.size(), 1u);
   ASSERT_EQ(scene.lights.size(), 1u);
   EXPECT_FALSE(scene.cameras[0].name.empty());
