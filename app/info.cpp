@@ -12,8 +12,8 @@ namespace airlight::app {
 
 void list_scenes() {
   for (const scene::BuiltinScene& scene : scene::builtin_scenes()) {
-    print(fmt::format("{:<12}{:>8} triangles  {}\n", scene.name, scene.make().geometry.triangles.size(),
-                      scene.description));
+    print(fmt::format("{:<12}{:>8} triangles  {}{}\n", scene.name, scene.make().geometry.triangles.size(),
+                      scene.description, scene.count ? "; takes --triangles" : ""));
   }
 }
 

@@ -29,7 +29,9 @@ void add_option(CLI::App& command, Options& options, const OptionLine& line) {
 /// What `render` and `compare` share.
 CLI::App& add_image_command(CLI::App& app, Options& options, const char* name, const char* description) {
   CLI::App& command = *app.add_subcommand(name, description);
-  command.add_option("SCENE", options.scene, "a built-in scene's name, or a .gltf, .glb or .obj file")
+  command
+      .add_option("SCENE", options.scene,
+                  "a built-in scene's name, a shot (.toml), or a .gltf, .glb, .obj or .ply file")
       ->type_name("");
   for (const OptionLine& line : common_options()) add_option(command, options, line);
   command.add_flag("--quiet", options.quiet, "say nothing but errors");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <filesystem>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "scene/builtin.h"
 #include "scene/error.h"
 #include "scene/import.h"
+#include "scene/shot.h"
 
 namespace airlight::app {
 namespace {
@@ -34,24 +36,43 @@ std::string scene_help() {
   for (const scene::BuiltinScene& builtin : scene::builtin_scenes()) {
     names += fmt::format("{}{}", names.empty() ? "" : ", ", builtin.name);
   }
-  return fmt::format("use a built-in scene ({}) or a .gltf, .glb or .obj file", names);
+  return fmt::format("use a built-in scene ({}), a shot (.toml) or a .gltf, .glb, .obj or .ply file", names);
 }
 
-struct Loaded {
-  scene::Scene scene;
-  bool is_builtin;
-};
-
-Loaded load_scene(const std::string& name) {
-  if (const scene::BuiltinScene* builtin = scene::find_builtin(name)) return {builtin->make(), true};
-  const std::filesystem::path file(name);
-  if (file.extension() == ".toml" || file.extension() == ".ply") {
-    throw usage(name, fmt::format("{} files are not built yet", file.extension().string()), scene_help());
+std::string triangles_help() {
+  std::string scenes;
+  for (const scene::BuiltinScene& builtin : scene::builtin_scenes()) {
+    if (!builtin.count) continue;
+    scenes += fmt::format("; {}: at least {}, rounded {} (default: {})", builtin.name, builtin.count->fewest,
+                          builtin.count->rounding, builtin.count->usual);
   }
+  return "about how many triangles the built-in scene has" + scenes;
+}
+
+bool is_shot(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".toml";
+}
+
+scene::Scene load_scene(const Options& options) {
+  const std::string& name = options.scene;
+  const std::filesystem::path file(name);
+  const scene::BuiltinScene* builtin = scene::find_builtin(name);
+  std::optional<std::size_t> triangles;
+  if (const auto text = options.get("triangles")) {
+    triangles = static_cast<std::size_t>(quality::parse_count("--triangles", *text));
+    // A shot knows itself what it shows.
+    const std::string problem = is_shot(file) ? "" : scene::count_problem(builtin, name, *triangles);
+    if (!problem.empty()) throw usage("--triangles", problem);
+  }
+  if (builtin) return builtin->make(triangles);
+  if (is_shot(file)) return scene::load_shot(file, triangles);
   if (std::error_code error; !file.has_extension() && !std::filesystem::exists(file, error)) {
     throw Error(ExitCode::bad_file, name, "there is no such scene", scene_help());
   }
-  return {scene::import_scene(file), false};
+  return scene::import_scene(file);
 }
 
 /// One of the named things that a scene brings, by name or by number from 0.
@@ -127,33 +148,19 @@ scene::PointLight choose_light(const Options& options, const scene::Scene& scene
   return light;
 }
 
-/// Whether a phase function has a g.
-bool has_lobe(scene::PhaseFunction phase) {
-  return phase == scene::PhaseFunction::henyey_greenstein || phase == scene::PhaseFunction::hoffman_preetham;
-}
-
 scene::Medium choose_medium(const Options& options, scene::Medium medium) {
   if (const auto value = options.get("sigma-s")) medium.sigma_s = quality::parse_colour("--sigma-s", *value);
   if (const auto value = options.get("sigma-a")) medium.sigma_a = quality::parse_colour("--sigma-a", *value);
   if (const auto value = options.get("phase")) {
-    using enum scene::PhaseFunction;
-    constexpr auto k_phases = std::to_array({isotropic, rayleigh, henyey_greenstein, hoffman_preetham});
-    const auto found = std::find_if(k_phases.begin(), k_phases.end(), [&](scene::PhaseFunction phase) {
-      return quality::phase_name(phase) == *value;
-    });
-    if (found == k_phases.end()) {
-      throw usage("--phase", fmt::format("'{}' is unknown", *value),
-                  "use isotropic, rayleigh, henyey-greenstein or hoffman-preetham");
-    }
-    medium.phase = *found;
-    if (!has_lobe(medium.phase)) medium.g = 0.0f;
+    medium.phase = scene::phase_of_name("--phase", *value);
+    if (!scene::has_g(medium.phase)) medium.g = 0.0f;
   }
   if (const auto value = options.get("g")) {
     medium.g = quality::parse_float("--g", *value);
     if (!(medium.g > -1.0f && medium.g < 1.0f))
       throw usage("--g", fmt::format("'{}' is not between -1 and 1", *value));
-    if (!has_lobe(medium.phase)) {
-      throw usage("--g", fmt::format("the phase function {} has no g", quality::phase_name(medium.phase)),
+    if (!scene::has_g(medium.phase)) {
+      throw usage("--g", fmt::format("the phase function {} has no g", scene::phase_name(medium.phase)),
                   "give --phase henyey-greenstein or hoffman-preetham");
     }
   }
@@ -163,21 +170,20 @@ scene::Medium choose_medium(const Options& options, scene::Medium medium) {
       throw usage("--rayleigh-weight", fmt::format("'{}' is not between 0 and 1", *value));
     if (medium.phase != scene::PhaseFunction::hoffman_preetham) {
       throw usage("--rayleigh-weight",
-                  fmt::format("the phase function {} mixes nothing", quality::phase_name(medium.phase)),
+                  fmt::format("the phase function {} mixes nothing", scene::phase_name(medium.phase)),
                   "give --phase hoffman-preetham");
     }
   }
   return medium;
 }
 
-/// Gives every triangle the same material.
-void override_albedo(const std::string& text, scene::Geometry& geometry) {
+/// --albedo
+glm::vec3 parse_albedo(const std::string& text) {
   const glm::vec3 albedo = quality::parse_colour("--albedo", text);
   if (std::max({albedo.x, albedo.y, albedo.z}) > 1.0f) {
     throw usage("--albedo", fmt::format("'{}' is more than 1", text), "a surface reflects at most all light");
   }
-  geometry.materials = {{albedo}};
-  std::fill(geometry.material_of_triangle.begin(), geometry.material_of_triangle.end(), 0u);
+  return albedo;
 }
 
 }  // namespace
@@ -185,6 +191,7 @@ void override_albedo(const std::string& text, scene::Geometry& geometry) {
 std::span<const OptionLine> common_options() {
   static const std::vector<OptionLine> options = [] {
     std::vector<OptionLine> lines = {
+        {"triangles", "N", triangles_help()},
         {"camera", "NAME|N",
          "one of the scene's cameras, by name or number from 0 (default: the first; without one, the view is "
          "fitted)"},
@@ -242,12 +249,12 @@ Subject make_subject(const Options& options) {
     if (*exposure <= 0.0f) throw usage("--exposure", fmt::format("'{}' is not positive", *text));
   }
 
-  Loaded loaded = load_scene(options.scene);
-  Subject subject{std::move(loaded.scene), {}, exposure};
-  if (!exposure && loaded.is_builtin) subject.exposure = subject.scene.exposure;
+  Subject subject{load_scene(options), {}, exposure};
+  if (!exposure) subject.exposure = subject.scene.exposure;
   subject.view = {choose_camera(options, subject.scene), choose_light(options, subject.scene),
                   choose_medium(options, subject.scene.medium), size};
-  if (const auto text = options.get("albedo")) override_albedo(*text, subject.scene.geometry);
+  if (const auto text = options.get("albedo"))
+    scene::override_albedo(subject.scene.geometry, parse_albedo(*text));
   scene::validate(subject.view);
   return subject;
 }

@@ -72,7 +72,8 @@ void render(const Options& options) {
   for (const auto& [name, value] : surface.values()) configuration[name] = quality::text_of(value);
   configuration["shadow-map"] = fmt::format("{}", shadow_map);
   configuration["exposure"] = fmt::format("{}", exposure);
-  if (const auto albedo = options.get("albedo")) configuration["albedo"] = *albedo;
+  for (const char* name : {"albedo", "triangles"})
+    if (const auto text = options.get(name)) configuration[name] = *text;
   configuration["version"] = quality::version();
   configuration["renderer"] = renderer;
   configuration["command"] =

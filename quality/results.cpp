@@ -135,20 +135,6 @@ std::string text_of(const Value& value) {
   return std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
 }
 
-std::string phase_name(scene::PhaseFunction phase) {
-  switch (phase) {
-    case scene::PhaseFunction::isotropic:
-      return "isotropic";
-    case scene::PhaseFunction::rayleigh:
-      return "rayleigh";
-    case scene::PhaseFunction::henyey_greenstein:
-      return "henyey-greenstein";
-    case scene::PhaseFunction::hoffman_preetham:
-      return "hoffman-preetham";
-  }
-  return {};
-}
-
 std::map<std::string, std::string> view_options(const scene::View& view) {
   std::map<std::string, std::string> options = {{"size", fmt::format("{}x{}", view.size.x, view.size.y)},
                                                 {"eye", text_of(view.camera.eye)},

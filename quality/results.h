@@ -79,9 +79,6 @@ std::string text_of(glm::dvec3 value);
 std::string text_of(glm::vec3 value);
 std::string text_of(const Value& value);
 
-/// The name of a phase function, as --phase takes it.
-std::string phase_name(scene::PhaseFunction phase);
-
 /// Every choice of a view under the name of the option that makes it.
 std::map<std::string, std::string> view_options(const scene::View& view);
 

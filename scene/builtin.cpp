@@ -1,31 +1,12 @@
 #include "scene/builtin.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <map>
-#include <numbers>
-#include <utility>
+
+#include <fmt/format.h>
 
 #include "scene/builtin_internal.h"
 
 namespace airlight::scene {
-
-void Modeller::box(glm::dvec3 lower, glm::dvec3 upper, double turn_degrees) {
-  const glm::dvec3 middle = 0.5 * (lower + upper), half = 0.5 * (upper - lower);
-  const double c = std::cos(glm::radians(turn_degrees)), s = std::sin(glm::radians(turn_degrees));
-  std::array<std::uint32_t, 8> v;
-  for (std::size_t i = 0; i < 8; ++i) {
-    const double x = i & 1 ? half.x : -half.x, y = i & 2 ? half.y : -half.y, z = i & 4 ? half.z : -half.z;
-    v[i] = vertex(middle + glm::dvec3(c * x + s * z, y, c * z - s * x));
-  }
-  quad(v[0], v[4], v[6], v[2]);
-  quad(v[1], v[3], v[7], v[5]);
-  quad(v[0], v[1], v[5], v[4]);
-  quad(v[2], v[6], v[7], v[3]);
-  quad(v[0], v[2], v[3], v[1]);
-  quad(v[4], v[5], v[7], v[6]);
-}
 
 namespace {
 
@@ -59,6 +40,7 @@ Scene make_empty() {
   scene.cameras.push_back({"front", {0.0, 0.0, 5.0}, {0.4, 0.3, 0.0}, {0.0, 1.0, 0.0}, 45.0});
   scene.lights.push_back({"lamp", {0.0, 0.0, 0.0}, glm::vec3(10.0f)});
   scene.medium.sigma_s = glm::vec3(0.1f);
+  scene.exposure = 1.0f;
   return scene;
 }
 
@@ -88,43 +70,7 @@ Scene make_sphere() {
   Modeller model(scene.geometry);
   model.paint(glm::vec3(0.6f));
 
-  // An icosahedron, each triangle cut into four until there are 20 · 4⁵ = 20,480.
-  const double g = std::numbers::phi;
-  const std::array<glm::dvec3, 12> corners = {{{-1, g, 0},
-                                               {1, g, 0},
-                                               {-1, -g, 0},
-                                               {1, -g, 0},
-                                               {0, -1, g},
-                                               {0, 1, g},
-                                               {0, -1, -g},
-                                               {0, 1, -g},
-                                               {g, 0, -1},
-                                               {g, 0, 1},
-                                               {-g, 0, -1},
-                                               {-g, 0, 1}}};
-  std::vector<glm::dvec3> points;
-  for (glm::dvec3 corner : corners) points.push_back(glm::normalize(corner));
-  std::vector<glm::uvec3> faces = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
-                                   {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-                                   {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
-                                   {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
-  for (int level = 0; level < 5; ++level) {
-    std::map<std::pair<glm::uint, glm::uint>, glm::uint> middle_of_edge;
-    const auto middle = [&](glm::uint i, glm::uint j) {
-      const auto [at, is_new] =
-          middle_of_edge.try_emplace({std::min(i, j), std::max(i, j)}, static_cast<glm::uint>(points.size()));
-      if (is_new) points.push_back(glm::normalize(points[i] + points[j]));
-      return at->second;
-    };
-    std::vector<glm::uvec3> finer;
-    for (glm::uvec3 f : faces) {
-      const glm::uint ab = middle(f.x, f.y), bc = middle(f.y, f.z), ca = middle(f.z, f.x);
-      finer.insert(finer.end(), {{f.x, ab, ca}, {f.y, bc, ab}, {f.z, ca, bc}, {ab, bc, ca}});
-    }
-    faces = std::move(finer);
-  }
-  for (glm::dvec3 point : points) model.vertex(point);
-  for (glm::uvec3 f : faces) model.triangle(f.x, f.y, f.z);
+  model.sphere(glm::dvec3(0.0), 1.0, 32);
 
   scene.cameras.push_back({"side", {1.0, -0.4, 9.0}, {0.8, -0.5, 0.0}, {0.0, 1.0, 0.0}, 45.0});
   scene.lights.push_back({"lamp", {-2.2, 1.5, 0.4}, glm::vec3(10.0f)});
@@ -133,14 +79,43 @@ Scene make_sphere() {
   return scene;
 }
 
+template <Scene (*make)()>
+Scene make_fixed(std::size_t) {
+  return make();
+}
+
 constexpr auto k_scenes = std::to_array<BuiltinScene>({
-    {"window", "light falls through gothic tracery into a dark hall, in shafts over pews and floor",
-     make_window},
-    {"cornell", "a 2 m Cornell box filled with fog, a lamp under its ceiling and two blocks", make_cornell},
-    {"empty", "fog and a lamp, nothing else: airlight has a closed form", make_empty},
-    {"half-space", "a half-plane under a lamp: everything below it on one side is dark, in closed form",
-     make_half_space},
-    {"sphere", "a unit sphere of 20,480 triangles and the cone of its shadow in fog", make_sphere},
+    {"window",
+     "light falls through gothic tracery into a dark hall, in shafts over pews and floor",
+     {},
+     make_fixed<make_window>},
+    {"fence",
+     "a lamp behind a wrought-iron gate: thin bars, scrolls and spears, and their shafts",
+     {},
+     make_fixed<make_fence>},
+    {"spheres", "a lamp amid a hundred spheres, whose shadows are cones",
+     TriangleCount{
+         138'000, 2'000,
+         "down to what a hundred icosahedra can have, whose faces are cut into n², or on some of them into "
+         "(n + 1)² triangles"},
+     make_spheres},
+    {"toroid", "a lamp in a ring of seven twisted saddles, which wraps about it and hides it",
+     TriangleCount{50'000, 1'000, "to a multiple of 84: each of its 21 patches is a grid"},
+
+     make_toroid},
+    {"cornell",
+     "a 2 m Cornell box filled with fog, a lamp under its ceiling and two blocks",
+     {},
+     make_fixed<make_cornell>},
+    {"empty", "fog and a lamp, nothing else: airlight has a closed form", {}, make_fixed<make_empty>},
+    {"half-space",
+     "a half-plane under a lamp: everything below it on one side is dark, in closed form",
+     {},
+     make_fixed<make_half_space>},
+    {"sphere",
+     "a unit sphere of 20,480 triangles and the cone of its shadow in fog",
+     {},
+     make_fixed<make_sphere>},
 });
 
 }  // namespace
@@ -153,6 +128,18 @@ const BuiltinScene* find_builtin(std::string_view name) {
   for (const BuiltinScene& scene : k_scenes)
     if (scene.name == name) return &scene;
   return nullptr;
+}
+
+std::string count_problem(const BuiltinScene* scene, std::string_view name, std::size_t triangles) {
+  if (!scene || !scene->count) {
+    std::string names;
+    for (const BuiltinScene& other : k_scenes)
+      if (other.count) names += fmt::format("{}{}", names.empty() ? "" : ", ", other.name);
+    return fmt::format("the triangles of {} are given; only a built-in scene's can be set ({})", name, names);
+  }
+  if (triangles < scene->count->fewest || triangles > k_most_triangles)
+    return fmt::format("{} is not between {} and {}", triangles, scene->count->fewest, k_most_triangles);
+  return {};
 }
 
 }  // namespace airlight::scene

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -37,10 +39,39 @@ class Modeller {
   /// A closed box, optionally turned about the vertical through its middle.
   void box(glm::dvec3 lower, glm::dvec3 upper, double turn_degrees = 0.0);
 
+  /// A closed sphere of 20·cuts² triangles.
+  void sphere(glm::dvec3 centre, double radius, std::uint32_t cuts);
+
+  /// A closed solid of revolution about the vertical through `foot`.
+  /// @param profile radius (positive) and height, from the bottom up
+  void turned(glm::dvec3 foot, std::span<const glm::dvec2> profile, std::uint32_t sides);
+
  private:
   Geometry& geometry_;
 };
 
+using Path = std::vector<glm::dvec2>;
+
+/// Where a flat shape stands: u to its right, v up, w towards the beholder.
+struct Plane {
+  glm::dvec3 origin, u, v, w;
+  glm::dvec3 at(double x, double y, double z) const { return origin + x * u + y * v + z * w; }
+};
+
+/// Points on a circle, both ends included; angles in radians from +u to +v.
+void arc(Path& path, glm::dvec2 centre, double radius, double from, double to, int steps);
+
+Path circle(glm::dvec2 centre, double radius, int steps);
+
+/// A closed bar along a path in a plane, chamfered front and back.
+void bar(Modeller& model, const Plane& plane, const Path& path, bool closed, double width, double depth);
+
 Scene make_window();
+Scene make_fence();
+
+/// @param triangles at least 2000
+Scene make_spheres(std::size_t triangles);
+/// @param triangles at least 1000
+Scene make_toroid(std::size_t triangles);
 
 }  // namespace airlight::scene

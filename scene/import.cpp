@@ -1,9 +1,11 @@
 #include "scene/import.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <utility>
 
@@ -13,6 +15,9 @@
 
 namespace airlight::scene {
 namespace {
+
+constexpr std::array<std::pair<std::string_view, Scene (*)(const std::filesystem::path&)>, 4> k_importers = {
+    {{".gltf", import_gltf}, {".glb", import_gltf}, {".obj", import_obj}, {".ply", import_ply}}};
 
 bool has_area(const RawGeometry& raw, glm::uvec3 triangle) {
   // In single precision, as every method will see them: corners can coincide after rounding. The differences
@@ -54,6 +59,29 @@ std::string read_file(const std::filesystem::path& file) {
   if (error || !stream.read(bytes.data(), static_cast<std::streamsize>(size)))
     throw file_error(file, "", "the file cannot be read");
   return bytes;
+}
+
+void split(std::string_view line, std::vector<std::string_view>& words) {
+  words.clear();
+  constexpr std::string_view k_space = " \t";
+  for (std::size_t at = line.find_first_not_of(k_space); at != line.npos;
+       at = line.find_first_not_of(k_space, at)) {
+    const std::size_t end = std::min(line.find_first_of(k_space, at), line.size());
+    words.push_back(line.substr(at, end - at));
+    at = end;
+  }
+}
+
+std::optional<double> finite_decimal(std::string_view word) {
+  if (word.empty() || word.find_first_not_of("+-.0123456789eE") != word.npos) return std::nullopt;
+  const std::string text(word);
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  return *end == '\0' && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+void count_warning(ImportReport& report, std::size_t count, std::string_view what) {
+  if (count > 0) report.warnings.push_back(fmt::format("{} {}", count, what));
 }
 
 glm::vec3 albedo(const std::filesystem::path& file, const std::string& place, glm::dvec3 value) {
@@ -103,15 +131,16 @@ Scene import_scene(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const bool gltf = extension == ".gltf" || extension == ".glb";
-  if (!gltf && extension != ".obj")
+  const auto found = std::find_if(k_importers.begin(), k_importers.end(),
+                                  [&](const auto& importer) { return importer.first == extension; });
+  if (found == k_importers.end())
     throw file_error(file, "",
                      extension.empty() ? "a file without an extension cannot be read"
                                        : fmt::format("{} files cannot be read", printable(extension)),
-                     "give a .gltf, .glb or .obj file");
+                     "give a .gltf, .glb, .obj or .ply file");
 
   try {
-    Scene scene = gltf ? import_gltf(file) : import_obj(file);
+    Scene scene = found->second(file);
     scene.name = file.stem().string();
     return scene;
   } catch (const Error&) {

@@ -6,7 +6,7 @@
 
 namespace airlight::scene {
 
-/// Reads a scene file: glTF 2.0 (`.gltf`, `.glb`) or Wavefront OBJ (`.obj`), by its extension.
+/// Reads a scene file: glTF 2.0 (`.gltf`, `.glb`), Wavefront OBJ (`.obj`) or PLY (`.ply`), by its extension.
 ///
 /// Node transforms are applied; perspective cameras and point lights are kept; what else matters for the
 /// picture (other lights, textures, skins, …) becomes a counted warning. Zero-area triangles are dropped and

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,10 @@ namespace airlight::scene {
 
 Scene import_gltf(const std::filesystem::path& file);
 Scene import_obj(const std::filesystem::path& file);
+Scene import_ply(const std::filesystem::path& file);
+
+/// Ear clipping takes time quadratic and worse in the number of corners.
+inline constexpr std::size_t k_most_corners = 1000;
 
 /// Triangles as a file gives them, in double precision and not yet checked.
 struct RawGeometry {
@@ -42,6 +47,15 @@ std::string read_file(const std::filesystem::path& file);
 
 /// Text of a file made fit for one line of a message: control characters replaced, and shortened.
 std::string printable(std::string_view text);
+
+/// The words of a line; `words` is reused from line to line.
+void split(std::string_view line, std::vector<std::string_view>& words);
+
+/// The number that a word is, where it is decimal and finite in double precision.
+std::optional<double> finite_decimal(std::string_view word);
+
+/// Warns of `what`, unless the count is zero.
+void count_warning(ImportReport& report, std::size_t count, std::string_view what);
 
 /// An error of this file, at a place in it.
 Error file_error(const std::filesystem::path& file, const std::string& place, const std::string& problem,

@@ -24,9 +24,6 @@
 namespace airlight::scene {
 namespace {
 
-/// Ear clipping takes time quadratic and worse in the number of corners.
-constexpr std::size_t k_most_corners = 1000;
-
 /// What the check of the lines learns.
 struct Survey {
   std::size_t vertices = 0;
@@ -40,27 +37,6 @@ struct Survey {
 
 std::string place_of_line(std::size_t line_number) {
   return fmt::format("line {}", line_number);
-}
-
-/// The words of a line; `words` is reused from line to line.
-void split(std::string_view line, std::vector<std::string_view>& words) {
-  words.clear();
-  constexpr std::string_view k_space = " \t";
-  for (std::size_t at = line.find_first_not_of(k_space); at != line.npos;
-       at = line.find_first_not_of(k_space, at)) {
-    const std::size_t end = std::min(line.find_first_of(k_space, at), line.size());
-    words.push_back(line.substr(at, end - at));
-    at = end;
-  }
-}
-
-/// Whether a word is a number as tinyobjloader reads it: decimal, and finite in double precision.
-bool is_finite_decimal(std::string_view word) {
-  if (word.find_first_not_of("+-.0123456789eE") != word.npos) return false;
-  const std::string text(word);
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  return !text.empty() && *end == '\0' && std::isfinite(value);
 }
 
 /// Checks one `f` line: whole numbers, not zero, of vertices that are there or (positive ones) may yet come.
@@ -109,7 +85,7 @@ Survey survey_lines(const std::filesystem::path& file, std::string_view text) {
       if (words.size() < 4)
         throw file_error(file, place_of_line(line_number), "a vertex needs three coordinates");
       for (std::size_t axis = 1; axis < 4; ++axis)
-        if (!is_finite_decimal(words[axis]))
+        if (!finite_decimal(words[axis]))
           throw file_error(file, place_of_line(line_number),
                            fmt::format("vertex {}: '{}' is not a finite number", survey.vertices + 1,
                                        printable(words[axis])));
@@ -169,10 +145,6 @@ void forward_warnings(const std::string& text, ImportReport& report) {
   }
   for (const auto& [line, count] : count_of_line)
     report.warnings.push_back(count == 1 ? line : fmt::format("{} ({} times)", line, count));
-}
-
-void count_warning(ImportReport& report, std::size_t count, std::string_view what) {
-  if (count > 0) report.warnings.push_back(fmt::format("{} {}", count, what));
 }
 
 }  // namespace

@@ -48,6 +48,32 @@ Box bounds(const Geometry& geometry) {
   return box;
 }
 
+std::string phase_name(PhaseFunction phase) {
+  switch (phase) {
+    case PhaseFunction::isotropic:
+      return "isotropic";
+    case PhaseFunction::rayleigh:
+      return "rayleigh";
+    case PhaseFunction::henyey_greenstein:
+      return "henyey-greenstein";
+    case PhaseFunction::hoffman_preetham:
+      return "hoffman-preetham";
+  }
+  return {};
+}
+
+PhaseFunction phase_of_name(const std::string& where, std::string_view name) {
+  using enum PhaseFunction;
+  for (PhaseFunction phase : {isotropic, rayleigh, henyey_greenstein, hoffman_preetham})
+    if (phase_name(phase) == name) return phase;
+  throw Error(ExitCode::usage, where, fmt::format("'{}' is unknown", name),
+              "use isotropic, rayleigh, henyey-greenstein or hoffman-preetham");
+}
+
+bool has_g(PhaseFunction phase) {
+  return phase == PhaseFunction::henyey_greenstein || phase == PhaseFunction::hoffman_preetham;
+}
+
 CameraFrame camera_frame(const Camera& camera, glm::ivec2 image_size) {
   const std::string where = camera.name.empty() ? "camera" : fmt::format("camera '{}'", camera.name);
   const auto refuse = [&](const std::string& problem) -> Error { return {ExitCode::usage, where, problem}; };
@@ -101,6 +127,11 @@ void validate(const View& view) {
   if (medium.phase > PhaseFunction::hoffman_preetham)
     throw Error(ExitCode::bad_file, "medium, phase",
                 fmt::format("there is no phase function {}", static_cast<std::uint32_t>(medium.phase)));
+}
+
+void override_albedo(Geometry& geometry, glm::vec3 albedo) {
+  geometry.materials = {{albedo}};
+  std::fill(geometry.material_of_triangle.begin(), geometry.material_of_triangle.end(), 0u);
 }
 
 Camera fit_camera(const Geometry& geometry) {

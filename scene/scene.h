@@ -3,7 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -84,6 +86,15 @@ enum class PhaseFunction : std::uint32_t {
   hoffman_preetham = 3,
 };
 
+/// The name that users know it by.
+std::string phase_name(PhaseFunction phase);
+
+/// @throws Error (usage) that names `where` and the phase functions, unless `name` is one of them
+PhaseFunction phase_of_name(const std::string& where, std::string_view name);
+
+/// Whether it has a mean cosine g to set.
+bool has_g(PhaseFunction phase);
+
 /// A homogeneous participating medium that fills space.
 struct Medium {
   glm::vec3 sigma_s{0.1f};  ///< scattering coefficient, RGB [1/m]
@@ -108,7 +119,7 @@ struct Scene {
   std::vector<Camera> cameras;
   std::vector<PointLight> lights;
   Medium medium;
-  float exposure = 1.0f;  ///< of PNG previews: linear radiance is multiplied by it before sRGB encoding
+  std::optional<float> exposure;  ///< of PNG previews: linear radiance is multiplied by it; automatic without
   ImportReport report;
 };
 
@@ -125,6 +136,9 @@ struct View {
 /// domain (not finite, negative intensity or coefficient, |g| ≥ 1, a weight outside [0, 1]); (usage) as
 /// `camera_frame`.
 void validate(const View& view);
+
+/// Gives every triangle the same reflectance.
+void override_albedo(Geometry& geometry, glm::vec3 albedo);
 
 /// A camera that sees all of the geometry, from the front (+Z), slightly above.
 Camera fit_camera(const Geometry& geometry);

@@ -25,29 +25,6 @@ constexpr double k_wall = 1.0;
 // from k_splay on it widens towards the hall.
 constexpr double k_tracery = -0.7, k_splay = -0.4, k_widening = 0.45;
 
-using Path = std::vector<glm::dvec2>;
-
-/// Where a flat shape stands: u to its right, v up, w towards the beholder.
-struct Plane {
-  glm::dvec3 origin, u, v, w;
-  glm::dvec3 at(double x, double y, double z) const { return origin + x * u + y * v + z * w; }
-};
-
-/// Points on a circle, both ends included; angles in radians from +u to +v.
-void arc(Path& path, glm::dvec2 centre, double radius, double from, double to, int steps) {
-  for (int i = 0; i <= steps; ++i) {
-    const double angle = from + (to - from) * i / steps;
-    path.push_back(centre + radius * glm::dvec2(std::cos(angle), std::sin(angle)));
-  }
-}
-
-Path circle(glm::dvec2 centre, double radius, int steps) {
-  Path path;
-  arc(path, centre, radius, 0.0, 2.0 * k_pi, steps);
-  path.pop_back();
-  return path;
-}
-
 /// A pointed arch over the span from −half_width to +half_width, from its left foot to its right one.
 Path pointed_arch(glm::dvec2 middle, double half_width, double height, int steps) {
   // Each arc's centre lies on the springing line, where it sees foot and apex equally far.
@@ -76,42 +53,6 @@ Path foil(glm::dvec2 middle, double radius, int lobes, double reach, double turn
     path.pop_back();  // the cusp begins the next lobe
   }
   return path;
-}
-
-/// A stone bar along a path in a plane, chamfered front and back.
-void bar(Modeller& model, const Plane& plane, const Path& path, bool closed, double width, double depth) {
-  static constexpr std::array<glm::dvec2, 8> k_profile = {{{0.5, -0.2},
-                                                           {0.5, 0.2},
-                                                           {0.15, 0.5},
-                                                           {-0.15, 0.5},
-                                                           {-0.5, 0.2},
-                                                           {-0.5, -0.2},
-                                                           {-0.15, -0.5},
-                                                           {0.15, -0.5}}};
-  const std::size_t count = path.size(), sides = k_profile.size();
-  std::vector<std::array<std::uint32_t, 8>> rings(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const glm::dvec2 before = closed || i > 0 ? path[i] - path[(i + count - 1) % count] : path[1] - path[0];
-    const glm::dvec2 after = closed || i + 1 < count ? path[(i + 1) % count] - path[i] : before;
-    const glm::dvec2 a = glm::normalize(before), b = glm::normalize(after);
-    // The mitre: longer than the bar is wide, but not spiky at cusps.
-    const glm::dvec2 bisector = glm::normalize(a + b);
-    const glm::dvec2 side = glm::dvec2(-bisector.y, bisector.x) / std::max(glm::dot(bisector, a), 0.6);
-    for (std::size_t k = 0; k < sides; ++k) {
-      const glm::dvec2 at = path[i] + side * (width * k_profile[k].x);
-      rings[i][k] = model.vertex(plane.at(at.x, at.y, depth * k_profile[k].y));
-    }
-  }
-  for (std::size_t i = 0; i + (closed ? 0 : 1) < count; ++i) {
-    const auto &ring = rings[i], &next = rings[(i + 1) % count];
-    for (std::size_t k = 0; k < sides; ++k)
-      model.quad(ring[k], ring[(k + 1) % sides], next[(k + 1) % sides], next[k]);
-  }
-  if (closed) return;
-  for (std::size_t k = 1; k + 1 < sides; ++k) {
-    model.triangle(rings.front()[0], rings.front()[k + 1], rings.front()[k]);
-    model.triangle(rings.back()[0], rings.back()[k], rings.back()[k + 1]);
-  }
 }
 
 /// An opening of a wall under an equilateral arch [m].
@@ -370,6 +311,7 @@ Scene make_window() {
   scene.cameras.push_back({"nave", {-3.1, 2.5, 4.9}, {2.1, 3.5, -8.0}, {0.0, 1.0, 0.0}, 62.0});
   scene.lights.push_back({"lamp", {-4.5, 13.0, -20.0}, glm::vec3(1.0f, 0.84f, 0.6f) * 52000.0f});
   scene.medium.sigma_s = glm::vec3(0.05f);
+  scene.exposure = 1.0f;
   return scene;
 }
 

@@ -131,7 +131,8 @@ TEST_F(Commands, HelpAndVersionAreData) {
 TEST_F(Commands, ScenesListsEveryBuiltinScene) {
   const Result result = airlight({"scenes"});
   EXPECT_EQ(result.exit_code, 0);
-  for (const char* name : {"window", "cornell", "empty", "half-space", "sphere"}) {
+  for (const char* name :
+       {"window", "fence", "spheres", "toroid", "cornell", "empty", "half-space", "sphere"}) {
     EXPECT_THAT(result.out, HasSubstr(name));
   }
   EXPECT_THAT(result.err, IsEmpty());
@@ -182,8 +183,6 @@ INSTANTIATE_TEST_SUITE_P(
                     Misuse{{"render", "cornell"}, "-o"}, Misuse{{"render", "cornell", "-o"}, "-o"},
                     Misuse{{"render", "cornell", "-o", "x.jpg"}, ".exr"}, Misuse{{"scenes", "more"}, "more"},
                     Misuse{{"render", "cornell", "more", "-o", "x.exr"}, "more"},
-                    Misuse{{"render", "shot.toml", "-o", "x.exr"}, "not built yet"},
-                    Misuse{{"render", "mesh.ply", "-o", "x.exr"}, "not built yet"},
                     Misuse{{"--debug"}, "--debug"}, Misuse{{"--light-texture"}, "--light-texture"},
                     Misuse{{"--max-error", "1"}, "--max-error"}, Misuse{{"--frames", "3"}, "--frames"},
                     Misuse{{"--fov", "30", "--fov", "40"}, "--fov"},
@@ -221,6 +220,11 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Choices, Usage,
     testing::Values(
+        Misuse{{"--triangles", "5000"}, "spheres, toroid"},
+        Misuse{{"render", "mesh.ply", "-o", "x.exr", "--triangles", "5000"}, "spheres, toroid"},
+        Misuse{{"render", "spheres", "-o", "x.exr", "--triangles", "1999"}, "2000 and 100000000"},
+        Misuse{{"render", "toroid", "-o", "x.exr", "--triangles", "100000001"}, "--triangles"},
+        Misuse{{"render", "toroid", "-o", "x.exr", "--triangles", "5e4"}, "--triangles"},
         Misuse{{"--camera", "back"}, "front"}, Misuse{{"--camera", "1"}, "front"},
         Misuse{{"--light", "sun"}, "ceiling"}, Misuse{{"--light", "99999999999999999999"}, "ceiling"},
         Misuse{{"--eye", "0,0,1"}, "--target"}, Misuse{{"--target", "0,0,1"}, "--eye"},
@@ -237,7 +241,8 @@ INSTANTIATE_TEST_SUITE_P(
 using BadFile = CommandLine;
 
 TEST_F(BadFile, MissingSceneIsNamed) {
-  for (const char* scene : {"nosuch", "nosuch.glb", "nosuch.obj", "nosuch.xyz"}) {
+  for (const char* scene :
+       {"nosuch", "nosuch.glb", "nosuch.obj", "nosuch.ply", "nosuch.toml", "nosuch.xyz"}) {
     const Result result = airlight({"render", scene, "-o", "x.exr"});
     expect_one_line_error(result, 3);
     EXPECT_THAT(result.err, HasSubstr(scene));
@@ -412,6 +417,12 @@ TEST_F(Render, CameraOptionsMoveTheView) {
   EXPECT_NE(distance({"--up", "1,0,0"}), own);
 }
 
+TEST_F(Render, TrianglesSetTheDetailOfAScene) {
+  const Image coarse = render({"spheres", "--triangles", "2000"});
+  EXPECT_NE(coarse.channels, render({"spheres", "--triangles", "8000"}).channels);
+  EXPECT_EQ(render({"toroid", "--triangles", "50000"}).channels, render({"toroid"}).channels);
+}
+
 TEST_F(Render, ExposureIsThatOfThePreviewAlone) {
   const Image dark = render({"--exposure", "0.1"});
   const std::string dark_preview = read_text(file("image.png"));
@@ -532,6 +543,70 @@ TEST_F(SceneFile, WarningsReachStandardErrorAndTheResults) {
   EXPECT_EQ(Json::parse(read_text(file("out/results.json")))["scene"]["degenerate_triangles"], 1);
   words.push_back("--quiet");
   EXPECT_THAT(small(words).err, IsEmpty());
+}
+
+/// A shot of `cornell` that says everything.
+class ShotFile : public CommandLine {
+ protected:
+  void SetUp() override {
+    CommandLine::SetUp();
+    std::ofstream(file("all.toml")) << "scene = 'cornell'\nexposure = 3\nalbedo = 0.5\n"
+                                       "[camera]\neye = [0.2, 1, 3]\ntarget = [0, 1, 0]\nfov = 50\n"
+                                       "[light]\nposition = [0.3, 1.5, 0]\nintensity = [2, 1, 0.5]\n"
+                                       "[medium]\nsigma_s = 0.2\nsigma_a = [0, 0.1, 0.2]\n"
+                                       "phase = 'henyey-greenstein'\ng = 0.3\n";
+  }
+};
+
+TEST_F(ShotFile, MeansWhatTheOptionsOfItsKeysMean) {
+  const Image shot = render({"all.toml"});
+  EXPECT_EQ(shot.metadata.at("airlight.exposure"), "3");
+  const Image options = render({"cornell",
+                                "--albedo",
+                                "0.5",
+                                "--eye",
+                                "0.2,1,3",
+                                "--target",
+                                "0,1,0",
+                                "--fov",
+                                "50",
+                                "--light-position",
+                                "0.3,1.5,0",
+                                "--intensity",
+                                "2,1,0.5",
+                                "--sigma-s",
+                                "0.2",
+                                "--sigma-a",
+                                "0,0.1,0.2",
+                                "--phase",
+                                "henyey-greenstein",
+                                "--g",
+                                "0.3"});
+  EXPECT_EQ(shot.channels, options.channels);
+}
+
+TEST_F(ShotFile, OptionsOverrideIt) {
+  const Image shot = render({"all.toml", "--camera", "front", "--light", "ceiling", "--intensity",
+                             "1,0.86,0.68", "--sigma-s", "0.25", "--sigma-a", "0", "--phase", "isotropic",
+                             "--albedo", "0", "--exposure", "7"});
+  EXPECT_EQ(shot.metadata.at("airlight.exposure"), "7");
+  EXPECT_EQ(shot.channels, render({"cornell", "--albedo", "0"}).channels);
+}
+
+TEST_F(ShotFile, ErrorNamesFileAndLine) {
+  std::ofstream(file("bad.toml")) << "scene = 'cornell'\nfog = 1\n";
+  const Result result = airlight({"render", "bad.toml", "-o", "x.exr"});
+  expect_one_line_error(result, 3);
+  EXPECT_THAT(result.err, HasSubstr("bad.toml, line 2: there is no key 'fog'"));
+  expect_one_line_error(airlight({"render", "all.toml", "-o", "x.exr", "--triangles", "5000"}), 2);
+}
+
+TEST_F(ShotFile, OfTheProjectIsRendered) {
+  for (const auto& entry : fs::directory_iterator(AIRLIGHT_ASSETS)) {
+    if (entry.path().extension() != ".toml") continue;
+    const Image image = render({entry.path().string()});
+    EXPECT_GT(mean(image.channels.at("airlight.G")), 0.0) << entry.path();
+  }
 }
 
 using Compare = CommandLine;

@@ -1,8 +1,11 @@
 #include "scene/builtin.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
+#include <numeric>
 #include <random>
 #include <set>
 #include <string>
@@ -62,7 +65,8 @@ double signed_volume(const Geometry& geometry) {
 TEST(Builtin, NamesAreKnownAndTheWindowIsTheDefault) {
   std::vector<std::string> names;
   for (const BuiltinScene& scene : builtin_scenes()) names.emplace_back(scene.name);
-  EXPECT_THAT(names, ElementsAre("window", "cornell", "empty", "half-space", "sphere"));
+  EXPECT_THAT(
+      names, ElementsAre("window", "fence", "spheres", "toroid", "cornell", "empty", "half-space", "sphere"));
   for (const std::string& name : names) {
     ASSERT_NE(find_builtin(name), nullptr);
     EXPECT_EQ(find_builtin(name)->name, name);
@@ -81,7 +85,7 @@ TEST_P(EachBuiltin, IsCompleteAndKeepsTheContractOfGeometry) {
 
   const Scene scene = builtin->make();
   EXPECT_EQ(scene.name, GetParam());
-  EXPECT_GT(scene.exposure, 0.0f);
+  EXPECT_GT(scene.exposure.value_or(0.0f), 0.0f);
   ASSERT_EQ(scene.cameras.size(), 1u);
   ASSERT_EQ(scene.lights.size(), 1u);
   EXPECT_FALSE(scene.cameras[0].name.empty());
@@ -103,7 +107,8 @@ TEST_P(EachBuiltin, IsCompleteAndKeepsTheContractOfGeometry) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Builtin, EachBuiltin,
-                         testing::Values("window", "cornell", "empty", "half-space", "sphere"),
+                         testing::Values("window", "fence", "spheres", "toroid", "cornell", "empty",
+                                         "half-space", "sphere"),
                          [](const auto& test) {
                            std::string name = test.param;
                            std::erase(name, '-');
@@ -111,10 +116,52 @@ INSTANTIATE_TEST_SUITE_P(Builtin, EachBuiltin,
                          });
 
 TEST(Builtin, SolidsAreClosedAndFaceOutwards) {
-  for (const char* name : {"window", "cornell", "sphere"}) {
+  for (const char* name : {"window", "fence", "spheres", "toroid", "cornell", "sphere"}) {
     const Geometry geometry = find_builtin(name)->make().geometry;
     EXPECT_EQ(open_edges(geometry), 0u) << name;
     EXPECT_GT(signed_volume(geometry), 0.0) << name;
+  }
+}
+
+TEST(Builtin, IsTheSameEachTime) {
+  for (const BuiltinScene& builtin : builtin_scenes()) {
+    const Geometry first = builtin.make().geometry, second = builtin.make().geometry;
+    EXPECT_EQ(first.positions, second.positions) << builtin.name;
+    EXPECT_EQ(first.triangles, second.triangles) << builtin.name;
+  }
+}
+
+/// A closed surface that bounds its parts from outside keeps both at any count of triangles.
+void expect_closed(const Geometry& geometry) {
+  EXPECT_EQ(open_edges(geometry), 0u);
+  EXPECT_GT(signed_volume(geometry), 0.0);
+  for (glm::uvec3 t : geometry.triangles) {
+    const glm::dvec3 a = geometry.positions[t.x], b = geometry.positions[t.y], c = geometry.positions[t.z];
+    ASSERT_GT(glm::length(glm::cross(b - a, c - a)), 0.0);
+  }
+}
+
+TEST(Builtin, CountsOfTrianglesAreRoundedAsTheySay) {
+  const BuiltinScene &spheres = *find_builtin("spheres"), &toroid = *find_builtin("toroid");
+  EXPECT_EQ(spheres.make().geometry.triangles.size(), 137'860u);
+  EXPECT_EQ(toroid.make().geometry.triangles.size(), 50'232u);
+  EXPECT_EQ(spheres.make(2'000).geometry.triangles.size(), 2'000u) << "icosahedra";
+  EXPECT_EQ(spheres.make(2'059).geometry.triangles.size(), 2'000u);
+  EXPECT_EQ(spheres.make(2'060).geometry.triangles.size(), 2'060u) << "one of them with faces cut into four";
+  EXPECT_EQ(spheres.make(8'000).geometry.triangles.size(), 8'000u);
+  for (std::size_t count : {2'000, 3'333, 7'999, 20'000, 300'000}) {
+    const Geometry some = spheres.make(count).geometry;
+    EXPECT_LE(some.triangles.size(), count);
+    EXPECT_GT(some.triangles.size() + 20 * (2 * 39 + 1), count) << "39² · 2000 is more than any of these";
+    expect_closed(some);
+  }
+  for (std::size_t count : {1'000, 1'700, 2'500, 10'000, 100'000}) {
+    const Geometry some = toroid.make(count).geometry;
+    EXPECT_EQ(some.triangles.size() % 84, 0u);
+    EXPECT_NEAR(static_cast<double>(some.triangles.size()) / static_cast<double>(count), 1.0,
+                count < 9'000 ? 0.15 : 0.06)
+        << "half a row of cells";
+    expect_closed(some);
   }
 }
 
@@ -158,6 +205,106 @@ TEST(Builtin, SphereShadowsACone) {
     shadowed += behind;
   }
   EXPECT_GT(shadowed, 5);
+}
+
+TEST(Spheres, AreAHundredThatStandApart) {
+  // Each sphere has vertices of its own, 10 n² + 2 of them, and a material of its own.
+  const Geometry geometry = find_builtin("spheres")->make(8'000).geometry;
+  constexpr std::size_t k_vertices = 42;
+  ASSERT_EQ(geometry.positions.size(), 100 * k_vertices);
+  std::vector<std::pair<glm::dvec3, double>> spheres;
+  for (std::size_t i = 0; i < 100; ++i) {
+    glm::dvec3 centre(0.0);
+    for (std::size_t k = 0; k < k_vertices; ++k) centre += glm::dvec3(geometry.positions[i * k_vertices + k]);
+    centre /= static_cast<double>(k_vertices);
+    const double radius = glm::distance(centre, glm::dvec3(geometry.positions[i * k_vertices]));
+    for (std::size_t k = 0; k < k_vertices; ++k)
+      EXPECT_NEAR(glm::distance(centre, glm::dvec3(geometry.positions[i * k_vertices + k])), radius, 1e-5);
+    for (const auto& [other, reach] : spheres) EXPECT_GT(glm::distance(centre, other), radius + reach);
+    EXPECT_GT(glm::length(centre), radius) << "the lamp is in none";
+    spheres.emplace_back(centre, radius);
+  }
+}
+
+TEST(Fence, HasThousandsOfThinParts) {
+  const std::size_t triangles = find_builtin("fence")->make().geometry.triangles.size();
+  EXPECT_GE(triangles, 5'000u);
+  EXPECT_LE(triangles, 60'000u);
+}
+
+TEST(Fence, StandsBetweenTheLampAndTheCamera) {
+  const Scene scene = find_builtin("fence")->make();
+  const glm::dvec3 light = scene.lights[0].position, eye = scene.cameras[0].eye;
+  EXPECT_LT(light.z, -0.1);
+  EXPECT_GT(eye.z, 1.0);
+  EXPECT_FALSE(is_blocked(scene.geometry, eye, light)) << "the lamp is seen between two bars";
+  // Along a level line through the gate, bars and gaps alternate.
+  int changes = 0;
+  bool was_blocked = false;
+  for (int i = 0; i <= 400; ++i) {
+    const bool blocked = is_blocked(scene.geometry, light, {light.x + 0.01 * (i - 200), light.y - 0.3, 0.6});
+    changes += blocked != was_blocked;
+    was_blocked = blocked;
+  }
+  EXPECT_GT(changes, 8);
+}
+
+TEST(Toroid, HasSevenfoldSymmetry) {
+  const Geometry geometry = find_builtin("toroid")->make().geometry;
+  std::multiset<std::array<long, 3>> cells;
+  constexpr double k_cell = 1e-3;  // [m], far less than an edge
+  const auto cell = [&](glm::dvec3 p) {
+    return std::array<long, 3>{std::lround(p.x / k_cell), std::lround(p.y / k_cell),
+                               std::lround(p.z / k_cell)};
+  };
+  for (glm::vec3 p : geometry.positions) cells.insert(cell(p));
+  const double angle = 2.0 * std::numbers::pi / 7.0, c = std::cos(angle), s = std::sin(angle);
+  for (glm::dvec3 p : geometry.positions) {
+    const auto at = cell({c * p.x - s * p.z, p.y, s * p.x + c * p.z});
+    int found = 0;
+    for (long x : {-1, 0, 1})
+      for (long y : {-1, 0, 1})
+        for (long z : {-1, 0, 1}) found += cells.contains({at[0] + x, at[1] + y, at[2] + z});
+    ASSERT_GT(found, 0) << p.x << " " << p.y << " " << p.z;
+  }
+}
+
+TEST(Toroid, IsOnePieceOfGenusFifteen) {
+  const Geometry geometry = find_builtin("toroid")->make(5'000).geometry;
+  // Euler's V − E + F = 2 − 2 · genus; a closed surface has three edges to two faces.
+  const auto vertices = static_cast<long>(geometry.positions.size());
+  const auto faces = static_cast<long>(geometry.triangles.size());
+  EXPECT_EQ(vertices - faces / 2, 2 - 2 * 15);
+  std::vector<glm::uint> root(geometry.positions.size());
+  std::iota(root.begin(), root.end(), 0u);
+  const auto find = [&](glm::uint i) {
+    while (root[i] != i) i = root[i] = root[root[i]];
+    return i;
+  };
+  for (glm::uvec3 t : geometry.triangles) {
+    root[find(t.x)] = find(t.y);
+    root[find(t.y)] = find(t.z);
+  }
+  std::set<glm::uint> pieces;
+  for (glm::uint i = 0; i < root.size(); ++i) pieces.insert(find(i));
+  EXPECT_EQ(pieces.size(), 1u) << "and no vertex is unused";
+}
+
+TEST(Toroid, WrapsAboutTheLampAndHidesIt) {
+  const Scene scene = find_builtin("toroid")->make(10'000);
+  const glm::dvec3 light = scene.lights[0].position, eye = scene.cameras[0].eye;
+  EXPECT_TRUE(is_blocked(scene.geometry, eye, light)) << "triangles cover the epipole";
+  // Light leaves through holes all around, and stone stands in its way all around.
+  for (int sector = 0; sector < 8; ++sector) {
+    int blocked = 0, lit = 0;
+    for (int i = 0; i < 200; ++i) {
+      const double angle = 0.25 * std::numbers::pi * (sector + i % 20 / 20.0), up = 0.2 * (i / 20 - 3);
+      const glm::dvec3 far = light + 20.0 * glm::dvec3(std::cos(angle), up, std::sin(angle));
+      (is_blocked(scene.geometry, light, far) ? blocked : lit)++;
+    }
+    EXPECT_GT(blocked, 50) << sector;
+    EXPECT_GT(lit, 10) << sector;
+  }
 }
 
 TEST(Window, HasTheSizeOfAnExample) {

@@ -1,5 +1,6 @@
 #include "scene/import.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -11,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -77,6 +79,7 @@ class Import : public testing::Test {
 
 class ImportGltf : public Import {};
 class ImportObj : public Import {};
+class ImportPly : public Import {};
 
 // ---- glTF documents ----
 
@@ -211,14 +214,14 @@ TEST_F(Import, RefusesWhatIsNoReadableFile) {
   expect_error(folder_ / "none.glb", "there is no such file");
   std::filesystem::create_directory(folder_ / "folder.obj");
   expect_error(folder_ / "folder.obj", "it is not a file");
-  for (const char* name : {"empty.gltf", "empty.glb", "empty.obj"})
+  for (const char* name : {"empty.gltf", "empty.glb", "empty.obj", "empty.ply"})
     expect_error(name, "", "the file is empty");
 }
 
 TEST_F(Import, RefusesOtherKindsOfFileAndSaysWhichItReads) {
-  for (const char* name : {"scene.ply", "scene.toml", "scene.FBX", "scene", ".obj"}) {
+  for (const char* name : {"scene.stl", "scene.xml", "scene.FBX", "scene", ".obj"}) {
     expect_error(name, "v 0 0 0", "cannot be read");
-    expect_error(name, "v 0 0 0", "give a .gltf, .glb or .obj file");
+    expect_error(name, "v 0 0 0", "give a .gltf, .glb, .obj or .ply file");
   }
 }
 
@@ -910,6 +913,324 @@ TEST_F(ImportObj, RefusesFilesThatAreNoObj) {
                "this is no OBJ file");
   expect_error("a.obj", "{\"asset\": {\"version\": \"2.0\"}}", "this is no OBJ file");
   expect_error("a.obj", std::string("\0\0\0\0", 4), "this is no OBJ file");
+}
+
+// ---- PLY ----
+
+/// A header of the unit square's corners and some faces.
+std::string ply_header(const std::string& format, std::size_t faces, const std::string& end_of_line = "\n",
+                       const std::string& scalar = "float") {
+  std::string header;
+  for (const std::string& line :
+       {std::string("ply"), "format " + format + " 1.0", std::string("comment made by hand"),
+        std::string("element vertex 4"), "property " + scalar + " x", "property " + scalar + " y",
+        "property " + scalar + " z", "element face " + std::to_string(faces),
+        std::string("property list uchar int vertex_indices"), std::string("end_header")})
+    header += line + end_of_line;
+  return header;
+}
+
+/// Appends a value in the byte order of the format.
+template <typename T>
+void put(std::string& bytes, T value, bool big_endian) {
+  std::string text = bytes_of(std::vector<T>{value});
+  if (big_endian) std::reverse(text.begin(), text.end());
+  bytes += text;
+}
+
+/// The square as two triangles, in binary.
+std::string binary_ply(bool big_endian, const std::vector<std::int32_t>& corners = {0, 1, 2, 0, 2, 3}) {
+  std::string bytes =
+      ply_header(big_endian ? "binary_big_endian" : "binary_little_endian", corners.size() / 3);
+  for (float coordinate : k_square) put(bytes, coordinate, big_endian);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (i % 3 == 0) bytes += '\3';
+    put(bytes, corners[i], big_endian);
+  }
+  return bytes;
+}
+
+const std::string k_ply_square = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+
+std::string ascii_ply(std::size_t faces, const std::string& lines) {
+  return ply_header("ascii", faces) + k_ply_square + lines;
+}
+
+TEST_F(ImportPly, ReadsEachFormatAlike) {
+  const std::vector<std::string> files = {
+      ascii_ply(2, "3 0 1 2\n3 0 2 3\n"), binary_ply(false), binary_ply(true),
+      ply_header("ascii", 2, "\r\n") + "0 0 0\r\n1 0\t0 \r\n\r\n1 +1e0 .0\r\n0 1 -0.\r\n3 0 1 2\r\n3 0 2 3"};
+  for (const std::string& file : files) {
+    const Scene scene = load("a.ply", file);
+    ASSERT_EQ(scene.geometry.triangles.size(), 2u);
+    EXPECT_THAT(corners(scene, 0), ElementsAre(V(0, 0, 0), V(1, 0, 0), V(1, 1, 0)));
+    EXPECT_THAT(corners(scene, 1), ElementsAre(V(0, 0, 0), V(1, 1, 0), V(0, 1, 0)));
+    EXPECT_EQ(albedo_of(scene, 1), Material{}.albedo);
+    EXPECT_THAT(scene.report.warnings, IsEmpty());
+    EXPECT_THAT(scene.cameras, IsEmpty());
+    EXPECT_THAT(scene.lights, IsEmpty());
+  }
+}
+
+TEST_F(ImportPly, ReadsBinaryAfterAHeaderWithCarriageReturns) {
+  std::string bytes = ply_header("binary_little_endian", 1, "\r\n");
+  for (float coordinate : k_square) put(bytes, coordinate, false);
+  bytes += '\3';
+  for (int corner : {10, 13, 2}) put(bytes, corner, false);  // 10 and 13 are the codes of ends of lines
+  expect_error("a.ply", bytes, "face 0: vertex 10 is out of range");
+}
+
+template <typename T>
+void expect_scalar(const std::function<Scene(const std::string&)>& load_ply, const std::string& name) {
+  for (bool big_endian : {false, true}) {
+    std::string bytes = ply_header(big_endian ? "binary_big_endian" : "binary_little_endian", 1, "\n", name);
+    for (float coordinate : k_square) put(bytes, static_cast<T>(100.0f * coordinate), big_endian);
+    bytes += '\3';
+    for (std::int32_t corner : {1, 2, 3}) put(bytes, corner, big_endian);
+    EXPECT_THAT(corners(load_ply(bytes), 0), ElementsAre(V(100, 0, 0), V(100, 100, 0), V(0, 100, 0))) << name;
+  }
+}
+
+TEST_F(ImportPly, ReadsCoordinatesOfEveryType) {
+  const auto load_ply = [this](const std::string& bytes) { return load("a.ply", bytes); };
+  expect_scalar<std::int8_t>(load_ply, "char");
+  expect_scalar<std::uint8_t>(load_ply, "uint8");
+  expect_scalar<std::int16_t>(load_ply, "short");
+  expect_scalar<std::uint16_t>(load_ply, "uint16");
+  expect_scalar<std::int32_t>(load_ply, "int");
+  expect_scalar<std::uint32_t>(load_ply, "uint32");
+  expect_scalar<float>(load_ply, "float32");
+  expect_scalar<double>(load_ply, "double");
+}
+
+/// Vertices with colour, normal and a list, an element of its own between, and faces before the vertices.
+const std::string k_rich_header =
+    "ply\nformat %s 1.0\nobj_info scanned\n"
+    "element face 1\nproperty uchar red\nproperty list uint8 uint16 vertex_index\nproperty list int double "
+    "uv\n"
+    "element edge 2\nproperty list ushort int ends\nproperty short kind\n"
+    "element vertex 3\nproperty float z\nproperty list char float weights\nproperty double y\n"
+    "property uchar green\nproperty float x\nelement user 0\nproperty int mood\nend_header\n";
+
+std::string rich_header(const std::string& format) {
+  std::string header = k_rich_header;
+  return header.replace(header.find("%s"), 2, format);
+}
+
+TEST_F(ImportPly, SkipsWhatItDoesNotKnow) {
+  std::string binary = rich_header("binary_big_endian");
+  const auto add = [&](auto value) { put(binary, value, true); };
+  add(std::uint8_t{255});
+  add(std::uint8_t{3});
+  for (std::uint16_t corner : std::vector<std::uint16_t>{2, 0, 1}) add(corner);
+  add(std::int32_t{2});
+  for (double uv : {0.5, 0.25}) add(uv);
+  for (std::uint16_t ends : std::vector<std::uint16_t>{0, 3}) {
+    add(ends);
+    for (int i = 0; i < ends; ++i) add(std::int32_t{7});
+    add(std::int16_t{-1});
+  }
+  for (int i = 0; i < 3; ++i) {
+    add(1.0f + static_cast<float>(i));
+    add(static_cast<std::int8_t>(i));
+    for (int k = 0; k < i; ++k) add(0.1f);
+    add(10.0 * i * i);
+    add(std::uint8_t{9});
+    add(static_cast<float>(i));
+  }
+  const std::string ascii = rich_header("ascii") +
+                            "255 3 2 0 1 2 0.5 0.25\n0 -1\n3 7 7 7 -1\n"
+                            "1 0 0 9 0\n2 1 0.1 10 9 1\n3 2 .1 .1 40 9 2\n";
+  for (const std::string& file : {binary, ascii}) {
+    const Scene scene = load("a.ply", file);
+    ASSERT_EQ(scene.geometry.triangles.size(), 1u);
+    EXPECT_THAT(corners(scene, 0), ElementsAre(V(2, 40, 3), V(0, 0, 1), V(1, 10, 2)));
+    EXPECT_THAT(scene.report.warnings, ElementsAre("face colours ignored: surfaces have one colour",
+                                                   "2 elements 'edge' ignored: only faces are rendered",
+                                                   "vertex colours ignored: surfaces have one colour"));
+  }
+}
+
+TEST_F(ImportPly, CutsPolygons) {
+  const Scene fan = load("a.ply", ascii_ply(1, "4 3 0 1 2\n"));
+  ASSERT_EQ(fan.geometry.triangles.size(), 2u);
+  EXPECT_THAT(corners(fan, 0), ElementsAre(V(0, 1, 0), V(0, 0, 0), V(1, 0, 0)));
+  EXPECT_THAT(corners(fan, 1), ElementsAre(V(0, 1, 0), V(1, 0, 0), V(1, 1, 0)));
+
+  // An L of six corners and one in the middle of an edge, in each plane, either way round and from each
+  // corner.
+  const std::vector<glm::ivec2> outline = {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
+  for (int turn = 0; turn < 3 * 2 * 7; ++turn) {
+    std::string text =
+        "ply\nformat ascii 1.0\nelement vertex 7\nproperty int x\nproperty int y\nproperty int z\n"
+        "element face 1\nproperty list int uint vertex_indices\nend_header\n";
+    for (glm::ivec2 p : outline) {
+      text += turn % 3 == 0   ? fmt::format("{} {} 0\n", p.x, p.y)
+              : turn % 3 == 1 ? fmt::format("0 {} {}\n", p.x, p.y)
+                              : fmt::format("{} 0 {}\n", p.y, p.x);
+    }
+    text += "7";
+    for (int i = 0; i < 7; ++i) {
+      const int corner = (i + turn / 6) % 7;
+      text += fmt::format(" {}", turn / 3 % 2 ? corner : 6 - corner);
+    }
+    const Scene scene = load("a.ply", text + "\n");
+    ASSERT_EQ(scene.geometry.triangles.size(), 5u) << turn;
+    double area = 0.0;
+    glm::vec3 sum(0.0f);
+    for (std::size_t i = 0; i < 5; ++i) {
+      const std::vector<glm::vec3> c = corners(scene, i);
+      const glm::vec3 twice = glm::cross(c[1] - c[0], c[2] - c[0]);
+      area += 0.5 * glm::length(twice);
+      sum += 0.5f * twice;
+    }
+    EXPECT_NEAR(area, 3.0, k_single) << turn;
+    EXPECT_NEAR(glm::length(sum), 3.0, k_single) << "all face the same way, " << turn;
+    EXPECT_THAT(scene.report.warnings, IsEmpty());
+  }
+}
+
+TEST_F(ImportPly, WarnsOfWhatItLeavesOutWithCounts) {
+  const auto warnings = [&](std::size_t faces, const std::string& lines) {
+    return load("a.ply", ascii_ply(faces, lines)).report.warnings;
+  };
+  EXPECT_THAT(warnings(0, ""), ElementsAre("the file has no triangles"));
+  EXPECT_THAT(warnings(3, "2 0 1\n0\n3 0 1 2\n"), ElementsAre("2 faces of fewer than three corners ignored"));
+  EXPECT_THAT(warnings(1, "3 0 1 2\n3 0 2 3\n"), ElementsAre("what follows the last element is ignored"));
+  EXPECT_EQ(load("a.ply", ascii_ply(3, "3 0 1 2\n3 0 0 1\n4 0 1 0 1\n")).report.degenerate_triangles, 3u);
+  // Six corners whose edges cross so that no ear is left at the end.
+  EXPECT_THAT(
+      load("a.ply",
+           "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
+           "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+           "2 0 0\n1 0 0\n0 2 0\n0 0 0\n3 1 0\n2 3 0\n6 0 1 2 3 4 5\n")
+          .report.warnings,
+      ElementsAre("1 triangles of polygons that cross themselves could not be cut out"));
+}
+
+TEST_F(ImportPly, RefusesBinaryFilesThatAreCutOff) {
+  for (bool big_endian : {false, true}) {
+    const std::string whole = binary_ply(big_endian);
+    for (std::size_t size = 1; size < whole.size(); ++size)
+      EXPECT_THROW(load("cut.ply", whole.substr(0, size)), Error)
+          << size << " of " << whole.size() << " bytes";
+    expect_error("cut.ply", whole.substr(0, whole.size() - 1), "face 1: the file ends inside it");
+  }
+}
+
+TEST_F(ImportPly, RefusesAsciiFilesThatAreCutOff) {
+  expect_error("a.ply", ascii_ply(2, "3 0 1 2\n"), "face 1: the file ends before it");
+  expect_error("a.ply", ascii_ply(1, "3 0 1\n"), "line 15: face 0: it has too few values");
+  expect_error("a.ply", ply_header("ascii", 0) + "0.0 0 0\n1 0\n0.0 0 0\n0.0 0 0\n",
+               "line 12: vertex 1: it has too few values");
+  expect_error("a.ply", ply_header("ascii", 0) + "0 0 0\n1 0 0 5\n0 0 0\n0 0 0\n",
+               "line 12: vertex 1: it has 4 values, 3 are expected");
+}
+
+TEST_F(ImportPly, BelievesNoCountThatTheFileCannotHold) {
+  const auto with = [](std::string file, const std::string& old, const std::string& text) {
+    return file.replace(file.find(old), old.size(), text);
+  };
+  for (const std::string& count : {std::string("4000000000"), std::string("18446744073709551615")}) {
+    for (const std::string& file : {binary_ply(false), ascii_ply(1, "3 0 1 2\n")}) {
+      expect_error("a.ply", with(file, "element vertex 4", "element vertex " + count),
+                   "element 'vertex': " + count + " of them do not fit");
+      const std::string faces = file.substr(file.find("element face "), 14);
+      expect_error("a.ply", with(file, faces, "element face " + count),
+                   "element 'face': " + count + " of them do not fit");
+    }
+  }
+  for (const char* count : {"-1", "4.0", "18446744073709551616", "many", "0x4"})
+    expect_error("a.ply", with(binary_ply(false), "vertex 4", "vertex " + std::string(count)),
+                 "line 4: '" + std::string(count) + "'");
+
+  // Lists.
+  std::string list = with(binary_ply(false, {0, 1, 2}), "uchar int vertex", "int int vertex");
+  list.resize(list.size() - 13);
+  for (std::int32_t size : {-1, 2'000'000'000, 4, 1001}) {
+    std::string bytes = list;
+    put(bytes, size, false);
+    bytes += std::string(12, '\0');
+    expect_error("a.ply", bytes,
+                 size < 0 ? "face 0: a list of -1 values" : "face 0: the file ends inside it");
+  }
+  expect_error("a.ply", ascii_ply(1, "4294967295 0 1 2\n"), "line 15: face 0: it has too few values");
+  // Elements without properties take no bytes, however many there are.
+  EXPECT_EQ(load("a.ply", with(binary_ply(false), "element vertex",
+                               "element nothing 18446744073709551615\nelement vertex"))
+                .geometry.triangles.size(),
+            2u);
+}
+
+TEST_F(ImportPly, RefusesCoordinatesThatAreNotFinite) {
+  for (const char* bad : {"nan", "inf", "-inf", "1e999", "x", "1.2.3", "0x10"})
+    expect_error("a.ply", ply_header("ascii", 0) + "0 0 0\n0 " + bad + " 0\n0 0 0\n0 0 0\n",
+                 "line 12: vertex 1: '" + std::string(bad) + "' is not a finite number");
+  std::string bytes = binary_ply(true);
+  std::string bad;
+  put(bad, k_nan, true);
+  const std::size_t body = bytes.find("end_header\n") + 11;
+  expect_error("a.ply", bytes.replace(body + 12, 4, bad), "vertex 1: the position is not finite");
+}
+
+TEST_F(ImportPly, RefusesFacesOfVerticesThatDoNotExist) {
+  expect_error("a.ply", binary_ply(false, {0, 1, 4}), "face 0: vertex 4 is out of range: 4 vertices, from 0");
+  expect_error("a.ply", binary_ply(true, {0, 1, 2, 0, -1, 3}), "face 1: vertex -1 is out of range");
+  expect_error("a.ply", ascii_ply(1, "3 0 1 -2147483648\n"),
+               "line 15: face 0: vertex -2147483648 is out of range");
+  expect_error("a.ply", ascii_ply(1, "3 0 1 1.5\n"), "line 15: face 0: '1.5' is not an integer");
+  std::string many = "1001";
+  for (int i = 0; i < 1001; ++i) many += " 0";
+  std::string file = ascii_ply(1, many);
+  expect_error("a.ply", file.replace(file.find("uchar int"), 9, "int int"),
+               "line 15: face 0: a polygon of 1001 corners");
+}
+
+TEST_F(ImportPly, RefusesBrokenHeaders) {
+  const auto with = [](const std::string& old, const std::string& text) {
+    std::string file = ascii_ply(1, "3 0 1 2\n");
+    return file.replace(file.find(old), old.size(), text);
+  };
+  expect_error("a.ply", "plyx\n", "this is no PLY file");
+  expect_error("a.ply",
+               std::string("\x7f"
+                           "ELF\0\n",
+                           6),
+               "this is no PLY file");
+  expect_error("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\n", "the file ends inside its header");
+  expect_error("a.ply", with("format ascii 1.0\n", ""), "line 9: the header names no format");
+  expect_error("a.ply", with("ascii 1.0", "ascii 2.0"), "line 2: 'format ascii 2.0' is not understood");
+  expect_error("a.ply", with("ascii", "binary"), "line 2: there is no format 'binary'");
+  expect_error("a.ply", with("float x", "half x"), "line 5: there is no type 'half'");
+  expect_error("a.ply", with("float x", "list uchar float x"),
+               "element 'vertex': its properties must include");
+  expect_error("a.ply", with("float y", "float x"), "line 6: the property 'x' is there twice");
+  expect_error("a.ply", with("element face 1", "element vertex 1"),
+               "line 8: the element 'vertex' is there twice");
+  expect_error("a.ply", with("element vertex 4", "element point 4"), "the file has no element 'vertex'");
+  expect_error("a.ply", with("element vertex 4\n", ""), "line 4: 'property float x' is not understood");
+  expect_error("a.ply", with("list uchar", "list float"), "line 9: the length of a list must be an integer");
+  expect_error("a.ply", with("vertex_indices", "corners"), "element 'face': its properties must include");
+  expect_error("a.ply", with("comment", "remark"), "line 3: 'remark made by hand' is not understood");
+}
+
+TEST_F(ImportPly, SurvivesRandomDamage) {
+  std::mt19937 random(1);
+  for (const std::string& whole :
+       {binary_ply(false), binary_ply(true), ascii_ply(2, "3 0 1 2\n4 0 1 2 3\n"),
+        rich_header("ascii") + "255 3 2 0 1 0\n0 -1\n0 1\n1 0 0 9 0\n2 0 0 0 1\n1 0 1 9 1\n"}) {
+    for (int i = 0; i < 500; ++i) {
+      std::string bytes = whole;
+      for (int k = 0; k < 3; ++k) {
+        char& byte = bytes[random() % bytes.size()];
+        byte = i % 2 ? static_cast<char>(random()) : "0123456789-e. \n"[random() % 15];
+      }
+      try {
+        load("damaged.ply", bytes);
+      } catch (const Error&) {
+      }
+    }
+  }
 }
 
 // ---- Real files ----

@@ -1,0 +1,230 @@
+#include "scene/shot.h"
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <string_view>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scene/error.h"
+
+namespace airlight::scene {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+using V = glm::vec3;
+using D = glm::dvec3;
+
+/// A folder of one test's files, which goes away with the test.
+class Shot : public testing::Test {
+ protected:
+  Shot() {
+    folder_ = std::filesystem::path(testing::TempDir()) /
+              (std::string("airlight_shot_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_ / "models");
+    write("models/one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  }
+  ~Shot() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path write(const std::string& name, std::string_view content) {
+    std::ofstream(folder_ / name, std::ios::binary) << content;
+    return folder_ / name;
+  }
+  Scene load(std::string_view content) { return load_shot(write("a shot.toml", content)); }
+
+  void expect_error(std::string_view content, const std::string& text) {
+    try {
+      load(content);
+      ADD_FAILURE() << "no error; expected one with: " << text;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.exit_code, ExitCode::bad_file) << error.what();
+      EXPECT_THAT(error.what(), HasSubstr(text));
+      EXPECT_THAT(error.what(), HasSubstr("a shot.toml"));
+      EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
+    }
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(Shot, ShowsABuiltinSceneAsItIsUnlessItSaysMore) {
+  const Scene scene = load("scene = \"cornell\"");
+  EXPECT_EQ(scene.name, "a shot");
+  EXPECT_EQ(scene.geometry.triangles.size(), 84u);
+  EXPECT_EQ(scene.cameras.at(0).name, "front");
+  EXPECT_EQ(scene.lights.at(0).name, "ceiling");
+  EXPECT_EQ(scene.exposure, 5.0f);
+  EXPECT_EQ(load("scene = \"spheres\"\ntriangles = 2000").geometry.triangles.size(), 2000u);
+}
+
+TEST_F(Shot, SaysEverythingOfAView) {
+  const Scene scene = load(
+      "# whole and broken numbers alike\nscene = 'models/one.obj'\nexposure = 4\nalbedo = [0.1, 0.2, 0]\n"
+      "[camera]\neye = [0, 1, 4]\ntarget = [0.5, 1.0, 0]\nup = [1, 0, 0]\nfov = 38\n"
+      "[light]\nposition = [0, 2, 1]\nintensity = [1, 2.5, 3e1]\n"
+      "[medium]\nsigma_s = 0.25\nsigma_a = [0, 0.1, 0.2]\nphase = \"henyey-greenstein\"\ng = -0.5\n");
+  EXPECT_EQ(scene.geometry.triangles.size(), 1u);
+  EXPECT_EQ(scene.geometry.materials.at(scene.geometry.material_of_triangle.at(0)).albedo,
+            V(0.1f, 0.2f, 0.0f));
+  EXPECT_EQ(scene.exposure, 4.0f);
+  const Camera& camera = scene.cameras.at(0);
+  EXPECT_EQ(camera.eye, D(0, 1, 4));
+  EXPECT_EQ(camera.target, D(0.5, 1, 0));
+  EXPECT_EQ(camera.up, D(1, 0, 0));
+  EXPECT_EQ(camera.vertical_fov_degrees, 38.0);
+  EXPECT_EQ(scene.lights.at(0).position, D(0, 2, 1));
+  EXPECT_EQ(scene.lights.at(0).intensity, V(1, 2.5f, 30));
+  EXPECT_EQ(scene.medium.sigma_s, V(0.25f));
+  EXPECT_EQ(scene.medium.sigma_a, V(0, 0.1f, 0.2f));
+  EXPECT_EQ(scene.medium.phase, PhaseFunction::henyey_greenstein);
+  EXPECT_EQ(scene.medium.g, -0.5f);
+}
+
+TEST_F(Shot, ChangesPartsOfWhatTheSceneBrings) {
+  const Scene scene = load(
+      "scene = 'cornell'\n[camera]\nname = 'front'\nfov = 50\n[light]\nname = 'ceiling'\nintensity = 7\n"
+      "[medium]\nphase = 'rayleigh'\n");
+  EXPECT_EQ(scene.cameras.at(0).eye, D(0, 1, 4.2));
+  EXPECT_EQ(scene.cameras.at(0).vertical_fov_degrees, 50.0);
+  EXPECT_EQ(scene.lights.at(0).intensity, V(7));
+  EXPECT_EQ(scene.lights.at(0).position, D(0, 1.85, 0));
+  EXPECT_EQ(scene.medium.phase, PhaseFunction::rayleigh);
+  EXPECT_EQ(scene.medium.sigma_s, V(0.25f));
+
+  const Scene added = load("scene = 'cornell'\n[camera]\neye = [0, 1, 3]\ntarget = [0, 1, 0]\n");
+  ASSERT_EQ(added.cameras.size(), 2u);
+  EXPECT_EQ(added.cameras[0].eye, D(0, 1, 3));
+  EXPECT_EQ(added.cameras[1].name, "front");
+}
+
+TEST_F(Shot, OfAFileMayLeaveOutEverything) {
+  const Scene scene = load("scene = 'models/one.obj'");
+  EXPECT_EQ(scene.cameras.at(0).name, "fitted");
+  EXPECT_TRUE(scene.lights.empty());
+  EXPECT_EQ(scene.exposure, std::nullopt);
+}
+
+TEST_F(Shot, TrianglesAskedForOverrideItsOwn) {
+  const auto file = write("s.toml", "scene = 'spheres'\ntriangles = 8000\n");
+  EXPECT_EQ(load_shot(file, 2000).geometry.triangles.size(), 2000u);
+  EXPECT_EQ(load_shot(file).geometry.triangles.size(), 8000u);
+  for (const auto& [text, count] : {std::pair{"scene = 'spheres'", 10u}, {"scene = 'cornell'", 5000u}}) {
+    try {
+      load_shot(write("s.toml", text), count);
+      ADD_FAILURE();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.exit_code, ExitCode::usage);
+      EXPECT_THAT(error.what(), HasSubstr("--triangles"));
+    }
+  }
+  expect_error("scene = 'spheres'\ntriangles = 10", "line 2, triangles: 10 is not between 2000");
+  expect_error("scene = 'cornell'\ntriangles = 5000",
+               "line 2, triangles: the triangles of cornell are given");
+  for (const char* bad : {"-5", "2e3", "'many'"})
+    expect_error("scene = 'spheres'\ntriangles = " + std::string(bad),
+                 "line 2, triangles: it must be a whole number");
+}
+
+TEST_F(Shot, RefusesKeysThatItDoesNotKnow) {
+  expect_error("scene = 'cornell'\nmood = 1\n",
+               "line 2: there is no key 'mood'; use albedo, camera, exposure");
+  expect_error("scene = 'cornell'\n[camera]\nfov = 40\nroll = 1\n",
+               "line 4: there is no key 'roll' in [camera]");
+  expect_error("scene = 'cornell'\n[light]\nlight_position = 1\n",
+               "line 3: there is no key 'light_position' in [light]");
+  expect_error("scene = 'cornell'\n[medium]\nsigma-s = 1\n", "line 3: there is no key 'sigma-s' in [medium]");
+  expect_error("scene = 'cornell'\n[sun]\n", "line 2: there is no key 'sun'");
+}
+
+TEST_F(Shot, RefusesValuesOfTheWrongType) {
+  const std::string scene = "scene = 'cornell'\n";
+  expect_error("scene = 7\n", "line 1, scene: it must be a text");
+  expect_error(scene + "exposure = 'bright'\n", "line 2, exposure: it must be a number");
+  expect_error(scene + "exposure = true\n", "line 2, exposure: it must be a number");
+  expect_error(scene + "camera = 'front'\n", "line 2, camera: it must be a table");
+  expect_error(scene + "[[camera]]\nfov = 40\n", "camera: it must be a table");
+  expect_error(scene + "[camera]\neye = [0, 1]\n", "line 3, camera.eye: it must be three numbers");
+  expect_error(scene + "[camera]\neye = 1\n", "line 3, camera.eye: it must be three numbers");
+  expect_error(scene + "[camera]\neye = [0, 1, 'x']\n", "line 3, camera.eye: it must be three numbers");
+  expect_error(scene + "[medium]\nsigma_s = [0, 1]\n",
+               "line 3, medium.sigma_s: it must be a number or three");
+  expect_error(scene + "[medium]\nphase = 1\n", "line 3, medium.phase: it must be a text");
+}
+
+TEST_F(Shot, RefusesValuesThatCannotBe) {
+  const std::string scene = "scene = 'cornell'\n";
+  expect_error(scene + "exposure = nan\n", "line 2, exposure: nan is not finite");
+  expect_error(scene + "exposure = -inf\n", "line 2, exposure: -inf is not finite");
+  for (const char* bad : {"0", "-1", "1e39", "1e-60"})
+    expect_error(scene + "exposure = " + bad, "line 2, exposure: ");
+  expect_error(scene + "albedo = [0, 1.5, 0]\n", "line 2, albedo: it is more than 1");
+  expect_error(scene + "[camera]\nfov = 180\n", "line 3, camera.fov: 180 is not between");
+  expect_error(scene + "[camera]\neye = [0, nan, 0]\ntarget = [0, 0, 0]\n",
+               "line 3, camera.eye: nan is not finite");
+  expect_error(scene + "[camera]\neye = [0, 0, 0]\n", "line 3, camera.eye: it needs target");
+  expect_error(scene + "[camera]\ntarget = [0, 0, 0]\n", "line 3, camera.target: it needs eye");
+  expect_error(scene + "[camera]\nname = 'front'\neye = [0, 0, 1]\ntarget = [0, 0, 0]\n",
+               "line 3, camera.name: ");
+  expect_error(scene + "[camera]\nname = 'back'\n",
+               "line 3, camera.name: the scene has no 'back'; it has 'front'");
+  expect_error(scene + "[camera]\neye = [0, 0, 1]\ntarget = [0, 0, 1]\n", "eye and target");
+  expect_error(scene + "[light]\nname = 'sun'\n",
+               "line 3, light.name: the scene has no 'sun'; it has 'ceiling'");
+  expect_error(scene + "[light]\nposition = [0, 1, 0]\n", "line 3, light.position: it needs intensity");
+  expect_error(scene + "[light]\nintensity = -1\n", "line 3, light.intensity: it must not be negative");
+  expect_error(scene + "[light]\nintensity = 1e39\n", "line 3, light.intensity: it is too large");
+  expect_error(scene + "[light]\nposition = [0, 1, 4.2]\nintensity = 1\n", "infinite");
+  expect_error("scene = 'models/one.obj'\n[light]\nintensity = 1\n",
+               "line 3, light.intensity: the scene has no light");
+  expect_error(scene + "[medium]\nsigma_a = inf\n", "line 3, medium.sigma_a: inf is not finite");
+  expect_error(scene + "[medium]\nphase = 'mie'\n", "line 3, medium.phase: phase: 'mie' is unknown");
+  expect_error(scene + "[medium]\nphase = 'henyey-greenstein'\ng = 1\n",
+               "line 4, medium.g: 1 is not between");
+  expect_error(scene + "[medium]\nphase = 'hoffman-preetham'\nrayleigh_weight = 2\n",
+               "line 4, medium.rayleigh_weight: 2 is not between 0 and 1");
+  expect_error(scene + "[medium]\nrayleigh_weight = 0.5\n",
+               "line 3, medium.rayleigh_weight: the phase function isotropic mixes nothing");
+  expect_error(scene + "[medium]\ng = 0.5\n", "line 3, medium.g: the phase function isotropic has no g");
+}
+
+TEST_F(Shot, RefusesScenesThatItCannotShow) {
+  expect_error("exposure = 1\n", "it names no scene");
+  expect_error("scene = 'none.glb'\n", "none.glb: there is no such file");
+  expect_error("\nscene = 'models'\n", "line 2, scene: ");
+  write("other.toml", "scene = 'cornell'");
+  expect_error("scene = 'other.toml'\n", "line 1, scene: ");
+  expect_error("scene = 'a shot.toml'\n", ".toml files cannot be read");
+  write("models/bad.obj", "v 0 0 nan\n");
+  expect_error("scene = 'models/bad.obj'\n", "bad.obj, line 1");
+  EXPECT_THROW(load_shot(folder_ / "none.toml"), Error);
+}
+
+TEST_F(Shot, RefusesWhatIsNoToml) {
+  expect_error("scene = 'cornell'\nexposure = \n", "line 2: ");
+  expect_error("scene = 'cornell'\nscene = 'window'\n", "line 2: ");
+  expect_error("scene = 'cornell'\n[camera\n", "line 2: ");
+  expect_error(std::string("\x7f\x45\x4c\x46\0\1", 6), "line 1: ");
+  expect_error("a = " + std::string(100'000, '['), "line 1: ");
+}
+
+TEST(ShotsOfTheProject, Load) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(AIRLIGHT_ASSETS)) {
+    if (entry.path().extension() != ".toml") continue;
+    const Scene scene = load_shot(entry.path());
+    EXPECT_FALSE(scene.geometry.triangles.empty()) << entry.path();
+    EXPECT_FALSE(scene.lights.empty()) << entry.path();
+    EXPECT_TRUE(scene.exposure.has_value()) << entry.path();
+    ++count;
+  }
+  EXPECT_EQ(count, 3);
+}
+
+}  // namespace
+}  // namespace airlight::scene
