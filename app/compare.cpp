@@ -55,7 +55,7 @@ void compare(const Options& options) {
       throw Error(ExitCode::usage, "--max-error", "no --volume is judged by it", "add one that is, as vsv");
     }
   }
-  const Subject subject = make_subject(options);
+  Subject subject = make_subject(options);
   quality::require_support(volumes, subject.view);
   const std::filesystem::path folder =
       options.output.empty() ? std::filesystem::path("out") / std::filesystem::path(options.scene).stem()
@@ -63,6 +63,8 @@ void compare(const Options& options) {
   require_folder(folder);
   const auto json = options.get("json");
   if (json && *json != "-") require_writable(*json);
+  for (std::string& warning : quality::warnings_of(volumes, subject.scene.geometry))
+    subject.scene.report.warnings.push_back(std::move(warning));
   if (!options.quiet) say_warnings(subject.scene.report);
 
   constexpr auto k_not_repeated = std::to_array<std::string_view>({"volume", "surface", "json"});

@@ -40,12 +40,14 @@ void render(const Options& options) {
   const auto surface =
       one("--surface", quality::parse_surfaces(options.get("surface").value_or("shadow-map"), settings));
   const int shadow_map = shadow_map_size(options);
-  const Subject subject = make_subject(options);
+  Subject subject = make_subject(options);
   quality::require_support(std::array{volume}, subject.view);
   std::filesystem::path preview = output;
   preview.replace_extension(".png");
   require_writable(output);
   require_writable(preview);
+  for (std::string& warning : quality::warnings_of(std::array{volume}, subject.scene.geometry))
+    subject.scene.report.warnings.push_back(std::move(warning));
   if (!options.quiet) say_warnings(subject.scene.report);
 
   frame::FrameImages images;

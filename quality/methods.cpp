@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "quality/numbers.h"
+#include "scene/components.h"
 #include "scene/error.h"
 #include "surface_shadows/shadow_map_lookup.h"
 
@@ -319,6 +320,20 @@ void require_support(std::span<const VolumeChoice> choices, const scene::View& v
   for (const VolumeChoice& choice : choices) {
     if (choice.method->name == "vsv") media::Vsv::require_support(choice.settings.integral, view.light);
   }
+}
+
+std::vector<std::string> warnings_of(std::span<const VolumeChoice> choices, const scene::Geometry& geometry) {
+  std::vector<std::string> warnings;
+  const bool fills_solids = std::any_of(choices.begin(), choices.end(), [](const VolumeChoice& choice) {
+    return choice.method->name == "vsv" && choice.settings.volume.populate == epipolar::Populate::screen_space;
+  });
+  if (!fills_solids) return warnings;
+  const scene::Components components = scene::find_components(geometry);
+  if (!components.is_watertight()) {
+    warnings.push_back("populate=screen-space fills the inside of watertight parts, and will show shadow and light where "
+                       "there is none: " + scene::describe_gaps(components));
+  }
+  return warnings;
 }
 
 SharedReference::SharedReference(const scene::Geometry& geometry, const scene::View& view, Progress progress)

@@ -642,6 +642,18 @@ TEST_F(Compare, WritesEveryImageAndTheReport) {
   EXPECT_THAT(read_text(file("out/report.html")), HasSubstr("vsv:integral=riemann"));
 }
 
+TEST_F(Compare, SolidsOfOpenPartsAreWarnedOf) {
+  // The half-plane is two triangles, and the blocks of the Cornell box are closed.
+  const Result open = small({"compare", "half-space", "-o", "out", "--populate", "screen-space"});
+  EXPECT_EQ(open.exit_code, 0) << open.err;
+  EXPECT_THAT(open.err, HasSubstr("1 of 1 connected parts are open: 4 edges with one triangle"));
+  const Json results = Json::parse(read_text(file("out/results.json")));
+  EXPECT_THAT(results.at("scene").at("warnings").dump(), HasSubstr("4 edges with one triangle"));
+  EXPECT_EQ(small({"compare", "cornell", "-o", "out", "--populate", "screen-space"}).err.find("parts are open"),
+            std::string::npos);
+  EXPECT_EQ(small({"compare", "half-space", "-o", "out"}).err.find("parts are open"), std::string::npos);
+}
+
 TEST_F(Compare, JudgesByTheReference) {
   const Json results = compare({"--volume", "none,vsv,reference,reference-march", "--surface", "reference"});
   const Json &none = results["runs"][0], &vsv = results["runs"][1], &reference = results["runs"][2],
