@@ -39,7 +39,7 @@ void require_accuracy(const quality::Comparison& comparison, double limit) {
 void compare(const Options& options) {
   // Everything that can be wrong with the command is found before the driver is woken.
   const quality::Settings settings = make_settings(options);
-  const auto volumes = quality::parse_volumes(
+  auto volumes = quality::parse_volumes(
       options.get("volume").value_or(default_volumes(options, "vsv,vsv:integral=riemann,reference-march",
                                                      "vsv:integral=riemann,reference-march")),
       settings);
@@ -57,6 +57,7 @@ void compare(const Options& options) {
   }
   Subject subject = make_subject(options);
   quality::require_support(volumes, subject.view);
+  quality::resolve_automatic(volumes, subject.view);
   const std::filesystem::path folder =
       options.output.empty() ? std::filesystem::path("out") / std::filesystem::path(options.scene).stem()
                              : std::filesystem::path(options.output);

@@ -33,7 +33,7 @@ void render(const Options& options) {
     throw Error(ExitCode::usage, "-o", fmt::format("'{}' does not end in .exr", options.output),
                 "images are OpenEXR, with a PNG preview beside");
   const quality::Settings settings = make_settings(options);
-  const auto volume = one(
+  auto volume = one(
       "--volume",
       quality::parse_volumes(
           options.get("volume").value_or(default_volumes(options, "vsv", "vsv:integral=riemann")), settings));
@@ -42,6 +42,7 @@ void render(const Options& options) {
   const int shadow_map = shadow_map_size(options);
   Subject subject = make_subject(options);
   quality::require_support(std::array{volume}, subject.view);
+  quality::resolve_automatic(std::span(&volume, 1), subject.view);
   std::filesystem::path preview = output;
   preview.replace_extension(".png");
   require_writable(output);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <vector>
 
 namespace airlight::epipolar {
 namespace {
@@ -76,25 +78,122 @@ Range theta_range(const scene::CameraFrame& camera, const Axes& axes) {
   return {inside + range.lower, inside + range.upper};
 }
 
-shaders::EpipolarBlock epipolar_block(const scene::View& view, const Resolution& resolution, Ranges ranges) {
+namespace {
+
+/// The planes of a frame.
+struct ThetaSpacing {
+  double middle, half;
+  double growth;       ///< see EpipolarBlock
+  double pixel_exact;  ///< how many planes are nowhere more than a pixel apart
+};
+
+/// How far apart, in pixels, two planes a radian apart are on the image's border, the farthest that their
+/// rays reach; by equal steps of θ over a turn.
+std::vector<double> reach_of_planes(const scene::CameraFrame& camera, glm::ivec2 size, const Axes& axes) {
+  constexpr int k_bins = 256, k_points = 1024;
+  std::vector<double> reach(k_bins, 0.0);
+  const auto include = [&](double x, double y) {
+    const glm::dvec3 point =
+        camera.forward + x * camera.half_width * camera.right + y * camera.half_height * camera.up;
+    const double turn =
+        std::atan2(glm::dot(point, axes.f), glm::dot(point, axes.u)) / (2.0 * std::numbers::pi);
+    const auto bin = static_cast<std::size_t>((turn - std::floor(turn)) * k_bins) % k_bins;
+    // A pixel seen off the axis spans less: its size over the length of the ray, foreshortened.
+    const double pixel = 2.0 * camera.half_height / size.y / glm::dot(point, point);
+    reach[bin] = std::max(reach[bin], glm::length(glm::cross(axes.axis, glm::normalize(point))) / pixel);
+  };
+  for (int i = 0; i <= k_points; ++i) {
+    const double s = 2.0 * i / k_points - 1.0;
+    include(s, -1.0);
+    include(s, 1.0);
+    include(-1.0, s);
+    include(1.0, s);
+  }
+  return reach;
+}
+
+/// Edges of shadow are displaced by up to half the distance of planes, so the squared error of a pixel is
+/// proportional to it, and a plane's to (reach)³ / density over its pixels. Of densities 1 + g cos(θ − θ_m)
+/// the one with the least sum is taken.
+ThetaSpacing theta_spacing(const scene::View& view, const scene::CameraFrame& camera, const Axes& axes,
+                           Ranges ranges, ThetaCells theta_cells) {
   using std::numbers::pi;
-  const glm::dvec3 to_light = view.light.position - view.camera.eye;
-  const double distance = glm::length(to_light);
-  const Axes axes = make_axes(to_light / distance);
-  const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
-  const Range alpha = ranges == Ranges::full ? Range{0.0, pi} : alpha_range(camera, axes.axis);
   const Range theta = ranges == Ranges::frame ? theta_range(camera, axes) : Range{-pi, pi};
+  ThetaSpacing spacing{std::remainder(0.5 * (theta.lower + theta.upper), 2.0 * pi),
+                       0.5 * (theta.upper - theta.lower), 0.0, 1.0};
+  const std::vector<double> reach = reach_of_planes(camera, view.size, axes);
+  const auto angle = [&](std::size_t bin) {
+    return 2.0 * pi * (static_cast<double>(bin) + 0.5) / static_cast<double>(reach.size());
+  };
+  if (theta_cells == ThetaCells::fitted && ranges == Ranges::frame && spacing.half > pi - 1e-9) {
+    double along_u = 0.0, along_f = 0.0;
+    for (std::size_t bin = 0; bin < reach.size(); ++bin) {
+      along_u += std::pow(reach[bin], 1.5) * std::cos(angle(bin));
+      along_f += std::pow(reach[bin], 1.5) * std::sin(angle(bin));
+    }
+    spacing.middle = std::atan2(along_f, along_u);
+    double least = std::numeric_limits<double>::infinity();
+    constexpr int k_steps = 16;
+    for (int step = 0; step <= k_steps; ++step) {
+      const double growth = 0.8 * step / k_steps;
+      double sum = 0.0;
+      for (std::size_t bin = 0; bin < reach.size(); ++bin)
+        sum += std::pow(reach[bin], 3.0) / (1.0 + growth * std::cos(angle(bin) - spacing.middle));
+      if (sum < least) {
+        least = sum;
+        spacing.growth = growth;
+      }
+    }
+  }
+  for (std::size_t bin = 0; bin < reach.size(); ++bin) {
+    spacing.pixel_exact =
+        std::max(spacing.pixel_exact, 2.0 * spacing.half * reach[bin] /
+                                          (1.0 + spacing.growth * std::cos(angle(bin) - spacing.middle)));
+  }
+  return spacing;
+}
+
+Axes axes_of(const scene::View& view) {
+  return make_axes(glm::normalize(view.light.position - view.camera.eye));
+}
+
+Range alpha_of_grid(const scene::CameraFrame& camera, const Axes& axes, Ranges ranges) {
+  return ranges == Ranges::full ? Range{0.0, std::numbers::pi} : alpha_range(camera, axes.axis);
+}
+
+}  // namespace
+
+shaders::EpipolarBlock epipolar_block(const scene::View& view, const Resolution& resolution, Ranges ranges,
+                                      ThetaCells theta_cells) {
+  const Axes axes = axes_of(view);
+  const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
+  const Range alpha = alpha_of_grid(camera, axes, ranges);
+  const ThetaSpacing theta = theta_spacing(view, camera, axes, ranges, theta_cells);
   shaders::EpipolarBlock block{};
   block.axis = glm::vec3(axes.axis);
-  block.distance = static_cast<float>(distance);
+  block.distance = static_cast<float>(glm::distance(view.light.position, view.camera.eye));
   block.u = glm::vec3(axes.u);
   block.f = glm::vec3(axes.f);
   block.alpha_min = static_cast<float>(alpha.lower);
   block.alpha_step = static_cast<float>((alpha.upper - alpha.lower) / resolution.alpha);
-  block.theta_middle = static_cast<float>(std::remainder(0.5 * (theta.lower + theta.upper), 2.0 * pi));
-  block.theta_half = static_cast<float>(0.5 * (theta.upper - theta.lower));
-  block.theta_step = static_cast<float>((theta.upper - theta.lower) / resolution.theta);
+  block.theta_middle = static_cast<float>(theta.middle);
+  block.theta_half = static_cast<float>(theta.half);
+  block.theta_step = static_cast<float>(2.0 * theta.half / resolution.theta);
+  block.theta_growth = static_cast<float>(theta.growth);
   return block;
+}
+
+Resolution pixel_exact(const scene::View& view, Ranges ranges, ThetaCells theta_cells) {
+  const Axes axes = axes_of(view);
+  const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
+  const Range alpha = alpha_of_grid(camera, axes, ranges);
+  const double corner = 1.0 + camera.half_width * camera.half_width + camera.half_height * camera.half_height;
+  const double least_pixel = 2.0 * camera.half_height / view.size.y / corner;
+  Resolution resolution;
+  resolution.alpha = static_cast<int>(std::ceil((alpha.upper - alpha.lower) / least_pixel));
+  resolution.theta =
+      static_cast<int>(std::ceil(theta_spacing(view, camera, axes, ranges, theta_cells).pixel_exact));
+  return resolution;
 }
 
 }  // namespace airlight::epipolar

@@ -42,7 +42,18 @@ enum class Ranges {
   full,       ///< all angles there are
 };
 
+/// How the range of θ is cut into planes.
+enum class ThetaCells {
+  fitted,  ///< denser where their rays reach farther across the image, if the light is in view
+  equal,   ///< the paper's
+};
+
 /// The uniform block of a view.
-shaders::EpipolarBlock epipolar_block(const scene::View& view, const Resolution& resolution, Ranges ranges);
+shaders::EpipolarBlock epipolar_block(const scene::View& view, const Resolution& resolution, Ranges ranges,
+                                      ThetaCells theta_cells);
+
+/// The counts of a view's grid whose rows are nowhere more than a pixel apart in α and θ; φ is left at its
+/// default.
+Resolution pixel_exact(const scene::View& view, Ranges ranges, ThetaCells theta_cells);
 
 }  // namespace airlight::epipolar

@@ -55,7 +55,8 @@ ShadowVolume::ShadowVolume(const gpu::Context& context, const VolumeSettings& se
 }
 
 shaders::EpipolarBlock ShadowVolume::find_ranges(const frame::FrameInputs& inputs) const {
-  shaders::EpipolarBlock block = epipolar_block(inputs.view, settings_.resolution, settings_.ranges);
+  shaders::EpipolarBlock block =
+      epipolar_block(inputs.view, settings_.resolution, settings_.ranges, settings_.theta_cells);
   if (populate_screen_space_) {
     // It finds occluders on the grid's own view rays, those nearer the axis than the image included.
     const float count = static_cast<float>(settings_.resolution.alpha);

@@ -35,6 +35,7 @@ struct VolumeSettings {
   Populate populate = Populate::shadow_map;
   std::optional<Scan> scan = {};  ///< the fastest if none
   Ranges ranges = Ranges::frame;
+  ThetaCells theta_cells = ThetaCells::fitted;
 };
 
 /// The scan that the settings stand for.

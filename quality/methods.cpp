@@ -28,13 +28,10 @@ std::string join(std::span<const std::string_view> words) {
 }
 
 template <std::size_t n>
-std::size_t parse_word(const std::string& where, std::string_view value, const Words<n>& words,
-                       std::span<const std::string_view> planned) {
+std::size_t parse_word(const std::string& where, std::string_view value, const Words<n>& words) {
   const auto found = std::find(words.begin(), words.end(), value);
   if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-  const bool is_planned = std::find(planned.begin(), planned.end(), value) != planned.end();
-  throw Error(ExitCode::usage, where,
-              fmt::format("'{}' is {}", value, is_planned ? "not built yet" : "unknown"),
+  throw Error(ExitCode::usage, where, fmt::format("'{}' is unknown", value),
               fmt::format("use {}", fmt::join(words, ", ")));
 }
 
@@ -43,12 +40,18 @@ constexpr Words<3> k_populates = {"shadow-map", "conservative", "screen-space"};
 constexpr Words<3> k_scans = {"fused", "column", "multi-pass"};
 constexpr Words<3> k_ranges = {"frame", "alpha-phi", "full"};
 constexpr Words<2> k_phi_cells = {"growing", "equal"};
+constexpr Words<2> k_theta_cells = {"fitted", "equal"};
 constexpr Words<2> k_rays = {"single", "packet"};
+
+constexpr int k_automatic = 0;
 
 /// Reads one count of the grid and checks it with the rules of the grid.
 void set_resolution(Settings& settings, const std::string& where, std::string_view value,
                     int epipolar::Resolution::*count) {
-  if (value == "auto") throw Error(ExitCode::usage, where, "'auto' is not built yet", "give a number");
+  if (value == "auto") {
+    settings.volume.resolution.*count = k_automatic;
+    return;
+  }
   epipolar::Resolution resolution;  // the other counts are good
   resolution.*count = parse_count(where, value);
   try {
@@ -61,11 +64,23 @@ void set_resolution(Settings& settings, const std::string& where, std::string_vi
   settings.volume.resolution.*count = resolution.*count;
 }
 
+Value text_of_count(int count) {
+  return count == k_automatic ? Value("auto") : Value(count);
+}
+
+/// `given` with what is automatic taken from `automatic`.
+epipolar::Resolution resolved(epipolar::Resolution given, const epipolar::Resolution& automatic) {
+  for (const auto count :
+       {&epipolar::Resolution::alpha, &epipolar::Resolution::theta, &epipolar::Resolution::phi})
+    if (given.*count == k_automatic) given.*count = automatic.*count;
+  return given;
+}
+
 const std::vector<Key>& keys() {
   static const std::vector<Key> keys = {
       {"integral", "how visibility becomes radiance: table (default), riemann or factored",
        [](Settings& settings, const std::string& where, std::string_view value) {
-         settings.integral = static_cast<media::VsvIntegral>(parse_word(where, value, k_integrals, {}));
+         settings.integral = static_cast<media::VsvIntegral>(parse_word(where, value, k_integrals));
        },
        [](const Settings& settings) -> Value {
          return std::string(k_integrals[static_cast<std::size_t>(settings.integral)]);
@@ -74,8 +89,7 @@ const std::vector<Key>& keys() {
        "what fills the grid: shadow-map (default), conservative (every voxel that a triangle touches) or "
        "screen-space (the inside of watertight parts)",
        [](Settings& settings, const std::string& where, std::string_view value) {
-         settings.volume.populate =
-             static_cast<epipolar::Populate>(parse_word(where, value, k_populates, {}));
+         settings.volume.populate = static_cast<epipolar::Populate>(parse_word(where, value, k_populates));
        },
        [](const Settings& settings) -> Value {
          return std::string(k_populates[static_cast<std::size_t>(settings.volume.populate)]);
@@ -84,7 +98,7 @@ const std::vector<Key>& keys() {
        "how shadow is drawn out along light rays: fused (one pass that only writes; default but for "
        "screen-space), column (one pass over set bits) or multi-pass (the paper's)",
        [](Settings& settings, const std::string& where, std::string_view value) {
-         settings.volume.scan = static_cast<epipolar::Scan>(parse_word(where, value, k_scans, {}));
+         settings.volume.scan = static_cast<epipolar::Scan>(parse_word(where, value, k_scans));
        },
        [](const Settings& settings) -> Value {
          return std::string(k_scans[static_cast<std::size_t>(epipolar::scan_of(settings.volume))]);
@@ -93,33 +107,43 @@ const std::vector<Key>& keys() {
        "angles that the grid covers: frame (default: what is seen), alpha-phi (the paper's: all theta) or "
        "full",
        [](Settings& settings, const std::string& where, std::string_view value) {
-         settings.volume.ranges = static_cast<epipolar::Ranges>(parse_word(where, value, k_ranges, {}));
+         settings.volume.ranges = static_cast<epipolar::Ranges>(parse_word(where, value, k_ranges));
        },
        [](const Settings& settings) -> Value {
          return std::string(k_ranges[static_cast<std::size_t>(settings.volume.ranges)]);
        }},
       {"phi-cells", "cells of the grid along the light angle: growing (default) or equal (the paper's)",
        [](Settings& settings, const std::string& where, std::string_view value) {
-         settings.phi_cells = static_cast<media::PhiCells>(parse_word(where, value, k_phi_cells, {}));
+         settings.phi_cells = static_cast<media::PhiCells>(parse_word(where, value, k_phi_cells));
        },
        [](const Settings& settings) -> Value {
          return std::string(k_phi_cells[static_cast<std::size_t>(settings.phi_cells)]);
        }},
-      {"alpha", "cells of the grid along the view angle (default 512)",
+      {"theta-cells",
+       "half-planes of the grid: fitted (default: denser where they reach farther) or equal (the paper's)",
+       [](Settings& settings, const std::string& where, std::string_view value) {
+         settings.volume.theta_cells =
+             static_cast<epipolar::ThetaCells>(parse_word(where, value, k_theta_cells));
+       },
+       [](const Settings& settings) -> Value {
+         return std::string(k_theta_cells[static_cast<std::size_t>(settings.volume.theta_cells)]);
+       }},
+      {"alpha", "cells of the grid along the view angle (default 512), or auto: a pixel apart",
        [](Settings& settings, const std::string& where, std::string_view value) {
          set_resolution(settings, where, value, &epipolar::Resolution::alpha);
        },
-       [](const Settings& settings) -> Value { return settings.volume.resolution.alpha; }},
-      {"theta", "half-planes of the grid about the axis from eye to light (default 2048)",
+       [](const Settings& settings) -> Value { return text_of_count(settings.volume.resolution.alpha); }},
+      {"theta",
+       "half-planes of the grid about the axis from eye to light (default 2048), or auto: a pixel apart",
        [](Settings& settings, const std::string& where, std::string_view value) {
          set_resolution(settings, where, value, &epipolar::Resolution::theta);
        },
-       [](const Settings& settings) -> Value { return settings.volume.resolution.theta; }},
-      {"phi", "cells of the grid along the light angle, a multiple of 128 (default 512)",
+       [](const Settings& settings) -> Value { return text_of_count(settings.volume.resolution.theta); }},
+      {"phi", "cells of the grid along the light angle, a multiple of 128, or auto (default: 512)",
        [](Settings& settings, const std::string& where, std::string_view value) {
          set_resolution(settings, where, value, &epipolar::Resolution::phi);
        },
-       [](const Settings& settings) -> Value { return settings.volume.resolution.phi; }},
+       [](const Settings& settings) -> Value { return text_of_count(settings.volume.resolution.phi); }},
       {"samples", "uniform steps in the light angle that look for changes of visibility (default 512)",
        [](Settings& settings, const std::string& where, std::string_view value) {
          settings.samples = parse_count(where, value);
@@ -132,7 +156,7 @@ const std::vector<Key>& keys() {
        [](const Settings& settings) -> Value { return settings.steps; }},
       {"rays", "how shadow rays are traced: packet (default) or single",
        [](Settings& settings, const std::string& where, std::string_view value) {
-         settings.rays = static_cast<reference::RayMode>(parse_word(where, value, k_rays, {}));
+         settings.rays = static_cast<reference::RayMode>(parse_word(where, value, k_rays));
        },
        [](const Settings& settings) -> Value {
          return std::string(k_rays[static_cast<std::size_t>(settings.rays)]);
@@ -253,7 +277,7 @@ std::span<const VolumeMethod> volume_methods() {
        }},
       {"vsv",
        "epipolar voxelized shadow volumes",
-       {"integral", "populate", "scan", "ranges", "alpha", "theta", "phi", "phi-cells"},
+       {"integral", "populate", "scan", "ranges", "alpha", "theta", "phi", "theta-cells", "phi-cells"},
        true,
        [](const gpu::Context& context, SharedReference&,
           const Settings& s) -> std::unique_ptr<frame::Airlight> {
@@ -308,7 +332,11 @@ std::span<const SurfaceMethod> surface_methods() {
 std::vector<VolumeChoice> parse_volumes(std::string_view list, const Settings& common) {
   std::vector<VolumeChoice> choices = parse_choices("--volume", list, common, volume_methods());
   for (const VolumeChoice& choice : choices)
-    if (choice.method->name == "vsv") epipolar::validate(choice.settings.volume);
+    if (choice.method->name == "vsv") {
+      epipolar::VolumeSettings volume = choice.settings.volume;
+      volume.resolution = resolved(volume.resolution, {});
+      epipolar::validate(volume);
+    }
   return choices;
 }
 
@@ -322,16 +350,28 @@ void require_support(std::span<const VolumeChoice> choices, const scene::View& v
   }
 }
 
+void resolve_automatic(std::span<VolumeChoice> choices, const scene::View& view) {
+  for (VolumeChoice& choice : choices) {
+    if (choice.method->name != "vsv") continue;
+    epipolar::VolumeSettings& volume = choice.settings.volume;
+    volume.resolution =
+        resolved(volume.resolution, epipolar::pixel_exact(view, volume.ranges, volume.theta_cells));
+  }
+}
+
 std::vector<std::string> warnings_of(std::span<const VolumeChoice> choices, const scene::Geometry& geometry) {
   std::vector<std::string> warnings;
   const bool fills_solids = std::any_of(choices.begin(), choices.end(), [](const VolumeChoice& choice) {
-    return choice.method->name == "vsv" && choice.settings.volume.populate == epipolar::Populate::screen_space;
+    return choice.method->name == "vsv" &&
+           choice.settings.volume.populate == epipolar::Populate::screen_space;
   });
   if (!fills_solids) return warnings;
   const scene::Components components = scene::find_components(geometry);
   if (!components.is_watertight()) {
-    warnings.push_back("populate=screen-space fills the inside of watertight parts, and will show shadow and light where "
-                       "there is none: " + scene::describe_gaps(components));
+    warnings.push_back(
+        "populate=screen-space fills the inside of watertight parts, and will show shadow and light where "
+        "there is none: " +
+        scene::describe_gaps(components));
   }
   return warnings;
 }

@@ -127,6 +127,9 @@ std::vector<SurfaceChoice> parse_surfaces(std::string_view list, const Settings&
 /// @throws scene::Error (usage) naming a choice that cannot show what the view asks for, as a light texture
 void require_support(std::span<const VolumeChoice> choices, const scene::View& view);
 
+/// Gives the counts of grids that are `auto` their value for this view (epipolar::pixel_exact).
+void resolve_automatic(std::span<VolumeChoice> choices, const scene::View& view);
+
 /// What the user should know before a method's results on this geometry are believed, one line each: the
 /// screen-space voxelization of parts that are not watertight.
 std::vector<std::string> warnings_of(std::span<const VolumeChoice> choices, const scene::Geometry& geometry);

@@ -18,7 +18,9 @@
 CONST float k_widest_slab = 0.2f;  // [rad]
 
 // How many slabs a cell of θ has.
-FUNCTION uint slabs_per_plane(IN(EpipolarBlock) space) { return uint(ceil(space.theta_step / k_widest_slab)); }
+FUNCTION uint slabs_per_plane(IN(EpipolarBlock) space) {
+  return uint(ceil(space.theta_step / ((1.0f - space.theta_growth) * k_widest_slab)));
+}
 
 // What single precision may misplace a point of the triangle by: relative to the eye, its coordinates along the axes of
 // epipolar space are sums of three products of numbers rounded to 6e-8 [m].
@@ -47,18 +49,19 @@ struct SlabSpan {
   uint wrapped_count;
 };
 
-FUNCTION uint slab_of(IN(EpipolarBlock) space, float from_middle, float slab_step, float count) {
-  return uint(clamp(floor((from_middle + space.theta_half) / slab_step), 0.0f, count - 1.0f));
+FUNCTION uint slab_of(IN(EpipolarBlock) space, float from_middle, float slabs, float count) {
+  return uint(clamp(floor(plane_of_theta(space, clamp(from_middle, -k_pi, k_pi)) * slabs), 0.0f, count - 1.0f));
 }
 
 // `a`, `b`, `c`: the corners' coordinates along u and f.
 FUNCTION SlabSpan slabs_of_triangle(IN(EpipolarBlock) space, IN(vec2) a, IN(vec2) b, IN(vec2) c, float slack,
-                                    uint slab_count) {
+                                    uint theta_count, uint slabs_a_plane) {
   float nearest = min(distance_to_segment(a, b), min(distance_to_segment(b, c), distance_to_segment(c, a)));
   float ab = a.x * b.y - a.y * b.x;
   float bc = b.x * c.y - b.y * c.x;
   float ca = c.x * a.y - c.y * a.x;
   bool holds_axis = (ab >= 0.0f && bc >= 0.0f && ca >= 0.0f) || (ab <= 0.0f && bc <= 0.0f && ca <= 0.0f);
+  uint slab_count = theta_count * slabs_a_plane;
   SlabSpan span;
   span.first = 0u;
   span.count = slab_count;
@@ -76,16 +79,16 @@ FUNCTION SlabSpan slabs_of_triangle(IN(EpipolarBlock) space, IN(vec2) a, IN(vec2
   float turn = lower < -k_pi ? 2.0f * k_pi : 0.0f;
   lower += turn;
   upper += turn;
+  float slabs = float(slabs_a_plane);
   float count = float(slab_count);
-  float slab_step = 2.0f * space.theta_half / count;
   span.count = 0u;
   if (lower <= space.theta_half && upper >= -space.theta_half) {
-    span.first = slab_of(space, lower, slab_step, count);
-    span.count = slab_of(space, upper, slab_step, count) - span.first + 1u;
+    span.first = slab_of(space, lower, slabs, count);
+    span.count = slab_of(space, upper, slabs, count) - span.first + 1u;
   }
   if (upper - 2.0f * k_pi >= -space.theta_half) {
-    span.wrapped_first = slab_of(space, lower - 2.0f * k_pi, slab_step, count);
-    span.wrapped_count = slab_of(space, upper - 2.0f * k_pi, slab_step, count) - span.wrapped_first + 1u;
+    span.wrapped_first = slab_of(space, lower - 2.0f * k_pi, slabs, count);
+    span.wrapped_count = slab_of(space, upper - 2.0f * k_pi, slabs, count) - span.wrapped_first + 1u;
   }
   return span;
 }
@@ -220,7 +223,7 @@ FUNCTION VoxelTriangle voxel_triangle(IN(EpipolarBlock) space, IN(vec3) a, IN(ve
   triangle.slack = position_slack(space, a, b, c);
   triangle.slabs = slabs_of_triangle(space, vec2(triangle.a.x, triangle.a.y), vec2(triangle.b.x, triangle.b.y),
                                      vec2(triangle.c.x, triangle.c.y), triangle.slack,
-                                     theta_count * slabs_per_plane(space));
+                                     theta_count, slabs_per_plane(space));
   return triangle;
 }
 
@@ -242,11 +245,13 @@ FUNCTION SlabPart part_in_slab(IN(EpipolarBlock) space, IN(PhiCells) cells, IN(V
   uint slab = index < triangle.slabs.count ? triangle.slabs.first + index
                                            : triangle.slabs.wrapped_first + (index - triangle.slabs.count);
   uint slabs = slabs_per_plane(space);
-  float slab_step = space.theta_step / float(slabs);
-  float theta = space.theta_middle + ((float(slab) + 0.5f) * slab_step - space.theta_half);
+  // The inverse of the planes' spacing is right to 1e-6.
+  float from = theta_of_plane(space, float(slab) / float(slabs)) - 1e-6f;
+  float to = theta_of_plane(space, float(slab + 1u) / float(slabs)) + 1e-6f;
+  float theta = space.theta_middle + 0.5f * (from + to);
   float cosine = cos(theta);
   float sine = sin(theta);
-  float tangent = tan(0.5f * slab_step);
+  float tangent = tan(0.5f * (to - from));
   SlabPart part;
   part.outline = outline_in_slab(seen_along_slab(space, triangle.a, cosine, sine),
                                  seen_along_slab(space, triangle.b, cosine, sine),

@@ -1,26 +1,49 @@
 // The voxel grid: which cell holds what, and where its bit is stored.
 //
-// N_α × N_θ × N_φ bits. Cells in θ and α are equal and cover the frame's ranges of θ and α; cells in φ cover [0, φ_max] and grow along it. A cell is represented by its centre. One 128-bit texel (uvec4) holds 128 consecutive φ at one (α, θ),
+// N_α × N_θ × N_φ bits. Cells in α are equal and cover the frame's range; cells in θ cover the frame's range, or a turn, denser in its middle; cells in φ cover [0, φ_max] and grow along it. A cell is represented by its centre. One 128-bit texel (uvec4) holds 128 consecutive φ at one (α, θ),
 // lowest bit first; the N_φ / 128 texels of a view ray are neighbours in memory, then the rays of one plane in order of α.
 #ifndef AIRLIGHT_GRID_GLSL
 #define AIRLIGHT_GRID_GLSL
 #include "epipolar/space.glsl"
 
-// Centre of plane j; may lie beyond ±π.
-FUNCTION float theta_centre(IN(EpipolarBlock) space, uint j) {
-  return space.theta_middle + ((float(j) + 0.5f) * space.theta_step - space.theta_half);
+// Planes from the start of the range to an angle from its middle, in [−π, π]. Cells are denser towards the middle, where
+// with the epipole off the image's centre the rays of a plane reach farthest.
+FUNCTION float plane_of_theta(IN(EpipolarBlock) space, float from_middle) {
+  return (from_middle + space.theta_growth * sin(from_middle) + space.theta_half) / space.theta_step;
 }
 
-// What to add to θ ∈ [−π, π] so that it lies within π of the middle of the range.
-FUNCTION float theta_turn(IN(EpipolarBlock) space, float theta) {
-  float from_middle = theta - space.theta_middle;
-  return from_middle > k_pi ? -2.0f * k_pi : from_middle < -k_pi ? 2.0f * k_pi : 0.0f;
+// Inverse of plane_of_theta, by Newton's method on a function that is concave on one side and convex on the other.
+FUNCTION float theta_of_plane(IN(EpipolarBlock) space, float plane) {
+  float y = plane * space.theta_step - space.theta_half;
+  float x = y;
+  for (int i = 0; i < 7; ++i) {
+    x -= (x + space.theta_growth * sin(x) - y) / (1.0f + space.theta_growth * cos(x));
+  }
+  return x;
+}
+
+// θ of the centre of plane j; may lie beyond ±π.
+FUNCTION float theta_centre(IN(EpipolarBlock) space, uint j) {
+  return space.theta_middle + theta_of_plane(space, float(j) + 0.5f);
+}
+
+// θ ∈ [−π, π] from the middle of the range, in [−π, π].
+FUNCTION float theta_from_middle(IN(EpipolarBlock) space, float theta) {
+  float x = theta - space.theta_middle;
+  return x > k_pi ? x - 2.0f * k_pi : x < -k_pi ? x + 2.0f * k_pi : x;
 }
 
 // The plane whose cell holds θ ∈ [−π, π], the nearest one for a θ outside the range.
 FUNCTION uint theta_cell(IN(EpipolarBlock) space, float theta, uint theta_count) {
-  float from_start = theta + theta_turn(space, theta) - space.theta_middle + space.theta_half;
-  return uint(clamp(floor(from_start / space.theta_step), 0.0f, float(theta_count) - 1.0f));
+  float plane = plane_of_theta(space, theta_from_middle(space, theta));
+  return uint(clamp(floor(plane), 0.0f, float(theta_count) - 1.0f));
+}
+
+// From θ to the centre of the plane whose cell holds it, to first order in the cell's width.
+FUNCTION float theta_to_centre(IN(EpipolarBlock) space, float theta, uint j) {
+  float x = theta_from_middle(space, theta);
+  float planes = float(j) + 0.5f - plane_of_theta(space, x);
+  return planes * space.theta_step / (1.0f + space.theta_growth * cos(x));
 }
 
 // The cell that holds α, the nearest one for an α outside the range.

@@ -58,7 +58,7 @@ ScreenTriangle fetch_triangle(uint index) {
   t.ab = make_edge(t.a, t.b);
   t.bc = make_edge(t.b, t.c);
   t.ca = make_edge(t.c, t.a);
-  t.planes = slabs_of_triangle(space, t.a.xy, t.b.xy, t.c.xy, t.slack, k_theta_count);
+  t.planes = slabs_of_triangle(space, t.a.xy, t.b.xy, t.c.xy, t.slack, k_theta_count, 1u);
   return t;
 }
 

@@ -24,8 +24,8 @@ struct EpipolarBlock {
   float alpha_step;  // width of a cell in α [rad]
   float theta_middle;  // θ range of the grid: its middle, …
   float theta_half;    // … and half its width, π for a full turn [rad]
-  float theta_step;    // width of a cell in θ [rad]
-  float padding;
+  float theta_step;    // mean width of a cell in θ [rad]
+  float theta_growth;  // g ∈ [0, 1): cells are 1 + g cos(θ − θ_middle) as dense as equal ones; 0 unless the turn is full
 };
 
 // Angle of (x, y) from the x axis, in (−π, π]; 0 for (0, 0). As right as GLSL's atan(y, x), to 2e-7 of the result, but

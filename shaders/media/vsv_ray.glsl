@@ -57,7 +57,7 @@ VsvRay vsv_ray(ivec2 pixel) {
   if (!ray.is_open) {
     // The row's ray, to first order in what separates it from this one.
     float d_alpha = space.alpha_min + (float(i) + 0.5) * space.alpha_step - ray.alpha;
-    float d_theta = theta_centre(space, j) - theta - theta_turn(space, theta);
+    float d_theta = theta_to_centre(space, theta, j);
     vec3 outward = (direction - ray.angle.cosine * space.axis) / ray.angle.sine;
     vec3 row_direction = direction + d_alpha * (ray.angle.cosine * outward - ray.angle.sine * space.axis) +
                          d_theta * ray.angle.sine * cross(space.axis, outward);

@@ -235,8 +235,7 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{{"--phase", "mie"}, "unknown"}, Misuse{{"--rayleigh-weight", "0.5"}, "hoffman-preetham"},
         Misuse{{"--volume", "froxel"}, "reference-march"}, Misuse{{"--surface", "psv"}, "shadow-map"},
         Misuse{{"--volume", "vsv,none"}, "one method"}, Misuse{{"--volume", ""}, "--volume"},
-        Misuse{{"--volume", "vsv:integral=sum"}, "riemann"}, Misuse{{"--volume", "vsv:shade=1"}, "integral"},
-        Misuse{{"--alpha", "auto"}, "not built yet"}));
+        Misuse{{"--volume", "vsv:integral=sum"}, "riemann"}, Misuse{{"--volume", "vsv:shade=1"}, "integral"}));
 
 using BadFile = CommandLine;
 
@@ -640,6 +639,17 @@ TEST_F(Compare, WritesEveryImageAndTheReport) {
   EXPECT_EQ(quality::read_exr(file("out/reference.exr")).channels.size(), 8u);
   EXPECT_THAT(read_text(file("out/reference.png")), StartsWith("\x89PNG"));
   EXPECT_THAT(read_text(file("out/report.html")), HasSubstr("vsv:integral=riemann"));
+}
+
+TEST_F(Compare, AutomaticCountsAreAPixelApart) {
+  const Json small_image = compare({"--alpha", "auto", "--theta", "auto", "--phi", "auto", "--volume", "vsv"});
+  const Json settings = small_image["runs"][0]["settings"];
+  EXPECT_EQ(settings["phi"], 512);
+  EXPECT_GT(settings["theta"].get<int>(), 3 * settings["alpha"].get<int>());
+  const Json larger = compare({"--volume", "vsv:alpha=auto:theta=auto", "--size", "64x64"});
+  const double ratio = larger["runs"][0]["settings"]["alpha"].get<double>() / settings["alpha"].get<double>();
+  const double pixels = 64.0 / small_image["view"]["size"][0].get<double>();
+  EXPECT_NEAR(ratio, pixels, 0.05 * pixels);
 }
 
 TEST_F(Compare, SolidsOfOpenPartsAreWarnedOf) {

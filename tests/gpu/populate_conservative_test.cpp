@@ -58,8 +58,9 @@ class Grids {
                        static_cast<double>(space_.alpha_step);
       const double from_middle =
           std::remainder(std::atan2(y, x) - static_cast<double>(space_.theta_middle), 2 * std::numbers::pi);
-      const double j =
-          (from_middle + static_cast<double>(space_.theta_half)) / static_cast<double>(space_.theta_step);
+      const double j = (from_middle + static_cast<double>(space_.theta_growth) * std::sin(from_middle) +
+                        static_cast<double>(space_.theta_half)) /
+                       static_cast<double>(space_.theta_step);
       if (i >= n.alpha || j < 0 || j >= n.theta || k >= n.phi) continue;
       ++inside;
       const auto cell = static_cast<std::size_t>(std::max(i, 0.0)), plane = static_cast<std::size_t>(j);

@@ -55,6 +55,7 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   space.alpha_step = 0.005f;
   space.theta_middle = 0.5f;
   space.theta_half = 3.0f;
+  space.theta_growth = 0.3f;
   space.theta_step = 6.0f / 333.0f;
 
   MediumBlock medium;

@@ -32,7 +32,7 @@ class Voxels {
         eye_(view.camera.eye),
         distance_(glm::distance(view.light.position, eye_)),
         axes_(make_axes((view.light.position - eye_) / distance_)),
-        space_(epipolar_block(view, n, ranges)),
+        space_(epipolar_block(view, n, ranges, ThetaCells::fitted)),
         cells_{static_cast<float>(phi_max), 1.5f, static_cast<float>(n.phi)},
         first_(static_cast<std::size_t>(n.theta) * static_cast<std::size_t>(n.phi)),
         stamp_(first_.size()) {}
@@ -73,8 +73,9 @@ class Voxels {
         (std::atan2(rho, z) - static_cast<double>(space_.alpha_min)) / static_cast<double>(space_.alpha_step);
     const double from_middle =
         std::remainder(std::atan2(y, x) - static_cast<double>(space_.theta_middle), 2 * pi);
-    place.theta =
-        (from_middle + static_cast<double>(space_.theta_half)) / static_cast<double>(space_.theta_step);
+    place.theta = (from_middle + static_cast<double>(space_.theta_growth) * std::sin(from_middle) +
+                   static_cast<double>(space_.theta_half)) /
+                  static_cast<double>(space_.theta_step);
     return rho > 0 && place.alpha < n_.alpha && place.theta >= 0 && place.theta < n_.theta &&
            place.phi >= 0 && place.phi < n_.phi;
   }

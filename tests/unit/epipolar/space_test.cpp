@@ -89,11 +89,12 @@ TEST(MakeAxes, DoNotSpinWithTheCamera) {
   view.light.position = {-2, 4, 1};
   Random random(4);
   view.camera.target = {0, 0, 0};
-  const shaders::EpipolarBlock first = epipolar_block(view, {64, 64, 128}, Ranges::frame);
+  const shaders::EpipolarBlock first = epipolar_block(view, {64, 64, 128}, Ranges::frame, ThetaCells::fitted);
   for (int i = 0; i < 100; ++i) {
     view.camera.target = random.in_box(10);
     view.camera.up = random.direction();
-    const shaders::EpipolarBlock block = epipolar_block(view, {64, 64, 128}, Ranges::frame);
+    const shaders::EpipolarBlock block =
+        epipolar_block(view, {64, 64, 128}, Ranges::frame, ThetaCells::fitted);
     EXPECT_EQ(block.axis, first.axis);
     EXPECT_EQ(block.u, first.u);
     EXPECT_EQ(block.f, first.f);
@@ -190,7 +191,8 @@ TEST(EpipolarBlock, SpansTheRangeWithItsCells) {
   view.camera.target = {0, 1, 0};
   view.light.position = {4, 4, -2};
   view.size = {100, 60};
-  const shaders::EpipolarBlock block = epipolar_block(view, {100, 64, 128}, Ranges::frame);
+  const shaders::EpipolarBlock block =
+      epipolar_block(view, {100, 64, 128}, Ranges::frame, ThetaCells::fitted);
   const Range range = alpha_range(scene::camera_frame(view.camera, view.size),
                                   glm::normalize(view.light.position - view.camera.eye));
   EXPECT_FLOAT_EQ(block.alpha_min, static_cast<float>(range.lower));
@@ -208,7 +210,8 @@ TEST(EpipolarBlock, KeepsItsAxesFarFromTheOrigin) {
   far.camera.eye += offset;
   far.camera.target += offset;
   far.light.position += offset;
-  const shaders::EpipolarBlock a = epipolar_block(near, {64, 64, 128}, Ranges::frame), b = epipolar_block(far, {64, 64, 128}, Ranges::frame);
+  const shaders::EpipolarBlock a = epipolar_block(near, {64, 64, 128}, Ranges::frame, ThetaCells::fitted),
+                               b = epipolar_block(far, {64, 64, 128}, Ranges::frame, ThetaCells::fitted);
   EXPECT_EQ(a.axis, b.axis);
   EXPECT_EQ(a.distance, b.distance);
   EXPECT_EQ(a.alpha_min, b.alpha_min);

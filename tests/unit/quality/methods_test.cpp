@@ -66,7 +66,7 @@ TEST(MethodSpec, MistakesAreNamedWithWhatIsValid) {
   EXPECT_THAT(complaint("vsv:alpha=4x"), HasSubstr("'4x'"));
   EXPECT_THAT(complaint("vsv:alpha=99999999999"), HasSubstr("'99999999999'"));
   EXPECT_THAT(complaint("vsv:phi=100"), HasSubstr("multiple of 128"));
-  EXPECT_THAT(complaint("vsv:theta=auto"), HasSubstr("not built yet"));
+  EXPECT_THAT(complaint("vsv:theta=many"), HasSubstr("theta"));
   EXPECT_THAT(complaint("vsv:populate=screen-space:scan=fused"), HasSubstr("column"));
   EXPECT_THAT(complaint("vsv:integral=sum"), testing::AllOf(HasSubstr("unknown"), HasSubstr("riemann")));
   EXPECT_THAT(complaint("none:alpha=4"), HasSubstr("it has none"));

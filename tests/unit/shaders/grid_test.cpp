@@ -18,11 +18,12 @@ EpipolarBlock make_range(float alpha_min, float alpha_max, uint count) {
 }
 
 /// θ cells of a range around `middle`.
-EpipolarBlock theta_space(float middle, float half, uint count) {
+EpipolarBlock theta_space(float middle, float half, uint count, float growth = 0.0f) {
   EpipolarBlock space{};
   space.theta_middle = middle;
   space.theta_half = half;
   space.theta_step = 2.0f * half / static_cast<float>(count);
+  space.theta_growth = growth;
   return space;
 }
 
@@ -40,6 +41,29 @@ TEST_P(ThetaCell, OfEachCentreIsThatCell) {
         EXPECT_EQ(theta_cell(space, theta, count), j) << middle << " ± " << half;
       }
     }
+  }
+}
+
+TEST_P(ThetaCell, OfAFittedTurnIsInvertedByItsCentre) {
+  const uint count = GetParam();
+  for (const float growth : {0.1f, 0.5f, 0.8f}) {
+    const EpipolarBlock space = theta_space(1.0f, k_pi, count, growth);
+    if ((1.0f - growth) * space.theta_step < 1e-5f) continue;
+    float before = -k_pi;
+    for (uint j = 0; j < count; ++j) {
+      const float x = theta_of_plane(space, static_cast<float>(j) + 0.5f);
+      EXPECT_GT(x, before);
+      before = x;
+      EXPECT_NEAR(plane_of_theta(space, x), static_cast<float>(j) + 0.5f, 2e-6f / space.theta_step);
+      const float theta = std::remainder(theta_centre(space, j), 2.0f * k_pi);
+      EXPECT_EQ(theta_cell(space, theta, count), j);
+      // A little beside the centre, it is found again.
+      const float beside = std::remainder(theta + 0.2f * space.theta_step, 2.0f * k_pi);
+      EXPECT_NEAR(theta_to_centre(space, beside, j), -0.2f * space.theta_step,
+                  4e-6f + 0.3f * space.theta_step * space.theta_step);
+    }
+    EXPECT_NEAR(theta_of_plane(space, 0.0f), -k_pi, 2e-6f);
+    EXPECT_NEAR(theta_of_plane(space, static_cast<float>(count)), k_pi, 2e-6f);
   }
 }
 
