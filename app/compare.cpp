@@ -77,10 +77,16 @@ void compare(const Options& options) {
                                             .frames = frames,
                                             .exposure = subject.exposure,
                                             .directory = folder,
+                                            .debug = options.debug,
                                             .command = options.command_line(k_not_repeated),
                                             .progress = progress.follower()});
   }
 
+  if (options.debug && !options.quiet &&
+      std::all_of(comparison.runs.begin(), comparison.runs.end(),
+                  [](const quality::Run& run) { return run.debug_images.empty(); })) {
+    say("airlight: warning: --debug: no --volume has pictures to show; vsv has");
+  }
   const std::string results = quality::results_json(comparison);
   quality::write_text(folder / "results.json", results);
   quality::write_text(folder / "report.html", quality::report_html(comparison));

@@ -66,7 +66,8 @@ void render(const Options& options) {
   configuration["volume"] = volume.spec;
   configuration["surface"] = surface.spec;
   for (const auto& [name, value] : volume.values()) configuration[name] = quality::text_of(value);
-  for (const auto& [name, value] : surface.values()) configuration[name] = quality::text_of(value);
+  for (const auto& [name, value] : surface.values())
+    configuration["surface." + name] = quality::text_of(value);
   configuration["shadow-map"] = fmt::format("{}", shadow_map);
   configuration["exposure"] = fmt::format("{}", exposure);
   if (const auto albedo = options.get("albedo")) configuration["albedo"] = *albedo;

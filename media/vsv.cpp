@@ -3,6 +3,7 @@
 #include <array>
 #include <numbers>
 
+#include "epipolar/debug_images.h"
 #include "media/medium.h"
 
 #include "spirv/media/phi_growth_comp.h"
@@ -92,6 +93,10 @@ std::map<std::string, std::int64_t> Vsv::bytes() const {
   std::map<std::string, std::int64_t> bytes = volume_.bytes();
   if (integral_ == VsvIntegral::table) bytes["table"] = table_.bytes();
   return bytes;
+}
+
+std::vector<frame::DebugImage> Vsv::debug_images(const frame::FrameInputs& inputs) {
+  return epipolar::debug_images(volume_, inputs);
 }
 
 }  // namespace airlight::media

@@ -30,6 +30,7 @@ class Vsv : public frame::Airlight {
   bool needs_shadow_map() const override { return volume_.needs_shadow_map(); }
   void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override;
   std::map<std::string, std::int64_t> bytes() const override;
+  std::vector<frame::DebugImage> debug_images(const frame::FrameInputs& inputs) override;
 
   const epipolar::ShadowVolume& volume() const { return volume_; }
 

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "epipolar/surface_lookup.h"
 #include "quality/numbers.h"
 #include "scene/error.h"
 #include "surface_shadows/shadow_map_lookup.h"
@@ -90,7 +91,8 @@ const std::vector<Key>& keys() {
          return std::string(k_scans[static_cast<std::size_t>(settings.volume.scan)]);
        }},
       {"ranges",
-       "angles that the grid covers: frame (default: what is seen), alpha-phi (the paper's: all theta) or full",
+       "angles that the grid covers: frame (default: what is seen), alpha-phi (the paper's: all theta) or "
+       "full",
        [](Settings& settings, const std::string& where, std::string_view value) {
          settings.volume.ranges = static_cast<epipolar::Ranges>(parse_word(where, value, k_ranges, {}));
        },
@@ -183,8 +185,8 @@ class MarchedAirlight : public frame::Airlight {
 class TracedShadow : public frame::SurfaceShadow {
  public:
   explicit TracedShadow(SharedReference& shared) : shared_(shared) { shared.prepare(); }
-  void query(const frame::FrameInputs&, const gpu::Texture& visibility) override {
-    visibility.write(shared_.surfaces().visibility.data());
+  void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override {
+    inputs.timer.time("surface_query", [&] { visibility.write(shared_.surfaces().visibility.data()); });
   }
 
  private:
@@ -293,6 +295,14 @@ std::span<const SurfaceMethod> surface_methods() {
        true,
        [](const gpu::Context&, SharedReference&, const Settings&) -> std::unique_ptr<frame::SurfaceShadow> {
          return std::make_unique<surface_shadows::ShadowMapLookup>();
+       }},
+      {"vsv",
+       "one bit of an epipolar voxelized shadow volume a pixel: to look at the volume",
+       {"populate", "scan", "ranges", "alpha", "theta", "phi"},
+       true,
+       [](const gpu::Context& context, SharedReference&,
+          const Settings& s) -> std::unique_ptr<frame::SurfaceShadow> {
+         return std::make_unique<epipolar::SurfaceLookup>(context, s.volume);
        }},
       {"reference",
        "one shadow ray a pixel on the CPU (Embree): the truth",
