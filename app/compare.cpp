@@ -43,7 +43,7 @@ void compare(const Options& options) {
       options.get("volume").value_or(default_volumes(options, "vsv,vsv:integral=riemann,reference-march",
                                                      "vsv:integral=riemann,reference-march")),
       settings);
-  const auto surfaces = quality::parse_surfaces(options.get("surface").value_or("shadow-map"), settings);
+  auto surfaces = quality::parse_surfaces(options.get("surface").value_or("shadow-map"), settings);
   const int shadow_map = shadow_map_size(options);
   const int frames = quality::parse_count("--frames", options.get("frames").value_or("5"));
   std::optional<double> limit;
@@ -56,16 +56,13 @@ void compare(const Options& options) {
     }
   }
   Subject subject = make_subject(options);
-  quality::require_support(volumes, subject.view);
-  quality::resolve_automatic(volumes, subject.view);
+  quality::fit(volumes, surfaces, subject.view, subject.scene);
   const std::filesystem::path folder =
       options.output.empty() ? std::filesystem::path("out") / std::filesystem::path(options.scene).stem()
                              : std::filesystem::path(options.output);
   require_folder(folder);
   const auto json = options.get("json");
   if (json && *json != "-") require_writable(*json);
-  for (std::string& warning : quality::warnings_of(volumes, subject.scene.geometry))
-    subject.scene.report.warnings.push_back(std::move(warning));
   if (!options.quiet) say_warnings(subject.scene.report);
 
   constexpr auto k_not_repeated = std::to_array<std::string_view>({"volume", "surface", "json"});
@@ -83,10 +80,16 @@ void compare(const Options& options) {
                                             .frames = frames,
                                             .exposure = subject.exposure,
                                             .directory = folder,
+                                            .debug = options.debug,
                                             .command = options.command_line(k_not_repeated),
                                             .progress = progress.follower()});
   }
 
+  if (options.debug && !options.quiet &&
+      std::all_of(comparison.runs.begin(), comparison.runs.end(),
+                  [](const quality::Run& run) { return run.debug_images.empty(); })) {
+    say("airlight: warning: --debug: no --volume has pictures to show; vsv has");
+  }
   const std::string results = quality::results_json(comparison);
   quality::write_text(folder / "results.json", results);
   quality::write_text(folder / "report.html", quality::report_html(comparison));

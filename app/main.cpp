@@ -93,6 +93,10 @@ int run(int argc, char** argv) {
              {"max-error", "X", "exit with 1 where a method's airlight has an rrmse above this, as in 0.02"});
   add_option(compare_command, options,
              {"json", "FILE", "write the results there too; - means standard output, instead of the table"});
+  compare_command.add_flag(
+      "--debug", options.debug,
+      "also write pictures of what a volume method holds; of vsv: the grid before and after "
+      "the scan, and the shadowed samples of each pixel");
   std::string methods = "METHOD is NAME:key=value:key=value. Airlight:\n";
   for (const quality::VolumeMethod& method : quality::volume_methods())
     methods += fmt::format("  {:<16} {}\n", method.name, method.description);

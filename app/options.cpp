@@ -237,6 +237,7 @@ std::string Options::command_line(std::span<const std::string_view> without) con
     if (std::find(without.begin(), without.end(), name) != without.end()) continue;
     line += fmt::format(" --{} {}", name, quality::shell_quote(value));
   }
+  if (debug) line += " --debug";
   return line;
 }
 

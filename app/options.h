@@ -29,6 +29,7 @@ struct Options {
       given;           ///< value of each option that was typed, by its name without dashes
   std::string output;  ///< -o; empty without
   bool quiet = false;
+  bool debug = false;  ///< of `compare`
 
   std::optional<std::string> get(const std::string& name) const {
     const auto found = given.find(name);

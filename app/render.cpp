@@ -37,18 +37,15 @@ void render(const Options& options) {
       "--volume",
       quality::parse_volumes(
           options.get("volume").value_or(default_volumes(options, "vsv", "vsv:integral=riemann")), settings));
-  const auto surface =
+  auto surface =
       one("--surface", quality::parse_surfaces(options.get("surface").value_or("shadow-map"), settings));
   const int shadow_map = shadow_map_size(options);
   Subject subject = make_subject(options);
-  quality::require_support(std::array{volume}, subject.view);
-  quality::resolve_automatic(std::span(&volume, 1), subject.view);
+  quality::fit(std::span(&volume, 1), std::span(&surface, 1), subject.view, subject.scene);
   std::filesystem::path preview = output;
   preview.replace_extension(".png");
   require_writable(output);
   require_writable(preview);
-  for (std::string& warning : quality::warnings_of(std::array{volume}, subject.scene.geometry))
-    subject.scene.report.warnings.push_back(std::move(warning));
   if (!options.quiet) say_warnings(subject.scene.report);
 
   frame::FrameImages images;
@@ -72,7 +69,8 @@ void render(const Options& options) {
   configuration["volume"] = volume.spec;
   configuration["surface"] = surface.spec;
   for (const auto& [name, value] : volume.values()) configuration[name] = quality::text_of(value);
-  for (const auto& [name, value] : surface.values()) configuration[name] = quality::text_of(value);
+  for (const auto& [name, value] : surface.values())
+    configuration["surface." + name] = quality::text_of(value);
   configuration["shadow-map"] = fmt::format("{}", shadow_map);
   configuration["exposure"] = fmt::format("{}", exposure);
   for (const char* name : {"albedo", "triangles"})

@@ -77,9 +77,11 @@ gpu::Program compositor(bool is_light_textured) {
 
 }  // namespace
 
-void NoShadow::query(const FrameInputs&, const gpu::Texture& visibility) {
-  const float lit = 1.0f;
-  glClearTexImage(visibility.name(), 0, GL_RED, GL_FLOAT, &lit);
+void NoShadow::query(const FrameInputs& inputs, const gpu::Texture& visibility) {
+  inputs.timer.time("surface_query", [&] {
+    const float lit = 1.0f;
+    glClearTexImage(visibility.name(), 0, GL_RED, GL_FLOAT, &lit);
+  });
 }
 
 void NoAirlight::integrate(const FrameInputs&, const gpu::Texture& radiance) {
@@ -157,8 +159,8 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
                            .shadow_map = needs_shadow_map ? &*shadow_map_ : nullptr,
                            .light_texture = light_texture_ ? &light_texture_texels_ : nullptr,
                            .timer = timer};
-  timer.time("surface_query", [&] { surface_shadow.query(inputs, visibility_); });
-  airlight.integrate(inputs, airlight_);  // times its own stages
+  surface_shadow.query(inputs, visibility_);  // times its own stages, …
+  airlight.integrate(inputs, airlight_);      // … and so does airlight
   timer.time("composite", [&] {
     scene_.bind_samplers();
     gbuffer_->triangles().bind_sampler(0);

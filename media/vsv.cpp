@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "epipolar/debug_images.h"
 #include "media/medium.h"
 #include "scene/error.h"
 
@@ -107,6 +108,10 @@ std::map<std::string, std::int64_t> Vsv::bytes() const {
   std::map<std::string, std::int64_t> bytes = volume_.bytes();
   if (integral_ != VsvIntegral::riemann) bytes["table"] = table_.bytes();
   return bytes;
+}
+
+std::vector<frame::DebugImage> Vsv::debug_images(const frame::FrameInputs& inputs) {
+  return epipolar::debug_images(volume_, inputs);
 }
 
 }  // namespace airlight::media

@@ -37,6 +37,7 @@ class Vsv : public frame::Airlight {
   /// @throws scene::Error (usage) where `require_support` does
   void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override;
   std::map<std::string, std::int64_t> bytes() const override;
+  std::vector<frame::DebugImage> debug_images(const frame::FrameInputs& inputs) override;
 
   /// @throws scene::Error (usage) for a light textured by direction, unless every sample is looked at: the
   /// table depends on α and φ alone, and such a light on θ too

@@ -43,6 +43,22 @@ std::string file_stem(std::string spec) {
   return spec;
 }
 
+/// Looks at what an airlight method left behind.
+class DebugProbe : public frame::Airlight {
+ public:
+  explicit DebugProbe(frame::Airlight& airlight) : airlight_(airlight) {}
+  bool needs_shadow_map() const override { return airlight_.needs_shadow_map(); }
+  void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override {
+    airlight_.integrate(inputs, radiance);
+    images_ = airlight_.debug_images(inputs);
+  }
+  const std::vector<frame::DebugImage>& images() const { return images_; }
+
+ private:
+  frame::Airlight& airlight_;
+  std::vector<frame::DebugImage> images_;
+};
+
 /// Runs methods of one view in turn, over one copy of the scene on the GPU.
 class Comparer {
  public:
@@ -194,7 +210,7 @@ class Comparer {
     run.name = file_stem(volume.spec) + "+" + file_stem(surface.spec);
     run.is_judged = volume.method->is_judged;
     run.settings = volume.values();
-    run.settings.merge(surface.values());
+    run.surface_settings = surface.values();
     run.command = command(run.name, volume.spec, surface.spec);
 
     const auto airlight = volume.method->make(context_, reference_, volume.settings);
@@ -202,8 +218,8 @@ class Comparer {
     time(run, *shadow, *airlight);
     run.bytes = frame_.bytes();
     if (!airlight->needs_shadow_map() && !shadow->needs_shadow_map()) run.bytes.erase("shadow_map");
-    run.bytes.merge(airlight->bytes());
-    run.bytes.merge(shadow->bytes());
+    for (const auto& [name, bytes] : airlight->bytes()) run.bytes[name] += bytes;
+    for (const auto& [name, bytes] : shadow->bytes()) run.bytes[name] += bytes;
 
     const frame::FrameImages images = frame_.read();
     const std::vector<glm::vec3>& truth = reference_.converged(request_.reference_samples).radiance;
@@ -218,7 +234,32 @@ class Comparer {
     write_exr(file(".exr"), exr_image(images, metadata_of(volume.spec, surface.spec, run.command)));
     write_png(file(".png"), images.radiance, images.size, comparison.exposure.value);
     write_png(file("_error.png"), error_colours(images.airlight, truth), images.size, 1.0f);
+    if (request_.debug) {
+      run.debug_images =
+          write_debug_images(*airlight, run.name, metadata_of(volume.spec, surface.spec, run.command));
+    }
     return run;
+  }
+
+  /// Draws one more frame for them.
+  std::vector<Run::DebugImage> write_debug_images(frame::Airlight& airlight, const std::string& run_name,
+                                                  std::map<std::string, std::string> metadata) {
+    frame::NoShadow no_shadow;
+    DebugProbe probe(airlight);
+    gpu::StageTimer off(nullptr);
+    frame_.render(request_.view, no_shadow, probe, off);
+    std::vector<Run::DebugImage> written;
+    for (const frame::DebugImage& image : probe.images()) {
+      const std::string name = run_name + "_" + image.name;
+      const float largest = *std::max_element(image.values.begin(), image.values.end());
+      const float white = largest > 0.0f ? largest : 1.0f;
+      metadata["airlight.caption"] = image.caption;
+      write_exr(request_.directory / (name + ".exr"), {image.size, {{"Y", image.values}}, metadata});
+      const std::vector<glm::vec3> grey(image.values.begin(), image.values.end());
+      write_png(request_.directory / (name + ".png"), grey, image.size, 1.0f / white);
+      written.push_back({name, image.caption, white});
+    }
+    return written;
   }
 
   /// The command that repeats one run, into a folder of its own.

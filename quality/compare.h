@@ -24,13 +24,15 @@ struct CompareRequest {
   int frames;                       ///< timed a run, after warm-up
   std::optional<float> exposure;    ///< of the PNG previews; automatic without
   std::filesystem::path directory;  ///< exists; gets the images
+  bool debug = false;               ///< write the volume methods' debug images too
   std::string command;              ///< all of the command but --volume, --surface and -o
   Progress progress;                ///< may be empty
 };
 
 /// Runs every volume method with every surface method, times them, judges them by the converged reference,
 /// and writes the images: reference.exr and .png, and for each run NAME.exr, NAME.png and NAME_error.png
-/// (`error_colours`).
+/// (`error_colours`); where asked for, the debug images of each volume method, as NAME_IMAGE.exr, channel Y,
+/// and NAME_IMAGE.png, where the largest value is white.
 ///
 /// A run's time is the median over whole frames, after one frame of warm-up and a few with timed stages.
 /// Where the first frame takes more than 2 s it is the only one.

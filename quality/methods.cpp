@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "epipolar/surface_lookup.h"
 #include "quality/numbers.h"
 #include "scene/components.h"
 #include "scene/error.h"
@@ -208,8 +209,8 @@ class MarchedAirlight : public frame::Airlight {
 class TracedShadow : public frame::SurfaceShadow {
  public:
   explicit TracedShadow(SharedReference& shared) : shared_(shared) { shared.prepare(); }
-  void query(const frame::FrameInputs&, const gpu::Texture& visibility) override {
-    visibility.write(shared_.surfaces().visibility.data());
+  void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override {
+    inputs.timer.time("surface_query", [&] { visibility.write(shared_.surfaces().visibility.data()); });
   }
 
  private:
@@ -319,6 +320,14 @@ std::span<const SurfaceMethod> surface_methods() {
        [](const gpu::Context&, SharedReference&, const Settings&) -> std::unique_ptr<frame::SurfaceShadow> {
          return std::make_unique<surface_shadows::ShadowMapLookup>();
        }},
+      {"vsv",
+       "one bit of an epipolar voxelized shadow volume a pixel: to look at the volume",
+       {"populate", "scan", "ranges", "alpha", "theta", "phi", "theta-cells"},
+       true,
+       [](const gpu::Context& context, SharedReference&,
+          const Settings& s) -> std::unique_ptr<frame::SurfaceShadow> {
+         return std::make_unique<epipolar::SurfaceLookup>(context, s.volume);
+       }},
       {"reference",
        "one shadow ray a pixel on the CPU (Embree): the truth",
        {},
@@ -329,51 +338,66 @@ std::span<const SurfaceMethod> surface_methods() {
   return methods;
 }
 
+namespace {
+
+/// Whether a method has a voxel grid.
+bool has_grid(const auto& choice) {
+  const auto& keys = choice.method->keys;
+  return std::find(keys.begin(), keys.end(), "populate") != keys.end();
+}
+
+/// @throws Error (usage) where settings of a grid contradict each other.
+void require_sound_grids(const auto& choices) {
+  for (const auto& choice : choices) {
+    if (!has_grid(choice)) continue;
+    epipolar::VolumeSettings volume = choice.settings.volume;
+    volume.resolution = resolved(volume.resolution, {});
+    epipolar::validate(volume);
+  }
+}
+
+/// Gives the counts of grids that are automatic their value.
+/// @returns whether a grid is filled by the screen-space voxelization
+bool fit_grids(auto choices, const scene::View& view) {
+  bool fills_solids = false;
+  for (auto& choice : choices) {
+    if (!has_grid(choice)) continue;
+    epipolar::VolumeSettings& volume = choice.settings.volume;
+    volume.resolution =
+        resolved(volume.resolution, epipolar::pixel_exact(view, volume.ranges, volume.theta_cells));
+    fills_solids = fills_solids || volume.populate == epipolar::Populate::screen_space;
+  }
+  return fills_solids;
+}
+
+}  // namespace
+
 std::vector<VolumeChoice> parse_volumes(std::string_view list, const Settings& common) {
-  std::vector<VolumeChoice> choices = parse_choices("--volume", list, common, volume_methods());
-  for (const VolumeChoice& choice : choices)
-    if (choice.method->name == "vsv") {
-      epipolar::VolumeSettings volume = choice.settings.volume;
-      volume.resolution = resolved(volume.resolution, {});
-      epipolar::validate(volume);
-    }
+  auto choices = parse_choices("--volume", list, common, volume_methods());
+  require_sound_grids(choices);
   return choices;
 }
 
 std::vector<SurfaceChoice> parse_surfaces(std::string_view list, const Settings& common) {
-  return parse_choices("--surface", list, common, surface_methods());
+  auto choices = parse_choices("--surface", list, common, surface_methods());
+  require_sound_grids(choices);
+  return choices;
 }
 
-void require_support(std::span<const VolumeChoice> choices, const scene::View& view) {
-  for (const VolumeChoice& choice : choices) {
-    if (choice.method->name == "vsv") media::Vsv::require_support(choice.settings.integral, view.light);
+void fit(std::span<VolumeChoice> volumes, std::span<SurfaceChoice> surfaces, const scene::View& view,
+         scene::Scene& scene) {
+  for (const VolumeChoice& choice : volumes) {
+    if (has_grid(choice)) media::Vsv::require_support(choice.settings.integral, view.light);
   }
-}
-
-void resolve_automatic(std::span<VolumeChoice> choices, const scene::View& view) {
-  for (VolumeChoice& choice : choices) {
-    if (choice.method->name != "vsv") continue;
-    epipolar::VolumeSettings& volume = choice.settings.volume;
-    volume.resolution =
-        resolved(volume.resolution, epipolar::pixel_exact(view, volume.ranges, volume.theta_cells));
-  }
-}
-
-std::vector<std::string> warnings_of(std::span<const VolumeChoice> choices, const scene::Geometry& geometry) {
-  std::vector<std::string> warnings;
-  const bool fills_solids = std::any_of(choices.begin(), choices.end(), [](const VolumeChoice& choice) {
-    return choice.method->name == "vsv" &&
-           choice.settings.volume.populate == epipolar::Populate::screen_space;
-  });
-  if (!fills_solids) return warnings;
-  const scene::Components components = scene::find_components(geometry);
+  const bool in_volumes = fit_grids(volumes, view), in_surfaces = fit_grids(surfaces, view);
+  if (!in_volumes && !in_surfaces) return;
+  const scene::Components components = scene::find_components(scene.geometry);
   if (!components.is_watertight()) {
-    warnings.push_back(
+    scene.report.warnings.push_back(
         "populate=screen-space fills the inside of watertight parts, and will show shadow and light where "
         "there is none: " +
         scene::describe_gaps(components));
   }
-  return warnings;
 }
 
 SharedReference::SharedReference(const scene::Geometry& geometry, const scene::View& view, Progress progress)

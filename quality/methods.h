@@ -124,14 +124,10 @@ using SurfaceChoice = Choice<SurfaceMethod>;
 std::vector<VolumeChoice> parse_volumes(std::string_view list, const Settings& common);
 std::vector<SurfaceChoice> parse_surfaces(std::string_view list, const Settings& common);
 
+/// Fits methods to what they will show: gives the counts of grids that are `auto` their value, and adds a
+/// warning to the scene's report where parts that are not watertight are to be voxelized as solids.
 /// @throws scene::Error (usage) naming a choice that cannot show what the view asks for, as a light texture
-void require_support(std::span<const VolumeChoice> choices, const scene::View& view);
-
-/// Gives the counts of grids that are `auto` their value for this view (epipolar::pixel_exact).
-void resolve_automatic(std::span<VolumeChoice> choices, const scene::View& view);
-
-/// What the user should know before a method's results on this geometry are believed, one line each: the
-/// screen-space voxelization of parts that are not watertight.
-std::vector<std::string> warnings_of(std::span<const VolumeChoice> choices, const scene::Geometry& geometry);
+void fit(std::span<VolumeChoice> volumes, std::span<SurfaceChoice> surfaces, const scene::View& view,
+         scene::Scene& scene);
 
 }  // namespace airlight::quality

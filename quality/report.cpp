@@ -139,14 +139,21 @@ std::string figure(const std::string& file, const std::string& caption) {
 }
 
 std::string run_section(const Run& run) {
-  std::string settings;
-  for (const auto& [name, value] : run.settings) {
-    settings += fmt::format("{}{}={}", settings.empty() ? "" : ", ", name, text_of(value));
+  std::string settings, debug_images;
+  const auto add_settings = [&](const char* prefix, const std::map<std::string, Value>& values) {
+    for (const auto& [name, value] : values)
+      settings += fmt::format("{}{}{}={}", settings.empty() ? "" : ", ", prefix, name, text_of(value));
+  };
+  add_settings("", run.settings);
+  add_settings("surface ", run.surface_settings);
+  for (const Run::DebugImage& image : run.debug_images) {
+    debug_images += figure(image.name + ".png", fmt::format("{}; white is {:.3g} %", image.caption,
+                                                            100.0 * static_cast<double>(image.white)));
   }
   return fmt::format("<section class=\"run\"><h3>{} × {}</h3>\n<p>{}</p><div class=\"images\">\n",
                      escape(run.volume), escape(run.surface), escape(settings)) +
          figure(run.name + ".png", "radiance") + figure("reference.png", "radiance, reference") +
-         figure(run.name + "_error.png", "airlight error, scale as above") +
+         figure(run.name + "_error.png", "airlight error, scale as above") + debug_images +
          fmt::format("</div>\n<code>{}</code></section>\n", escape(run.command));
 }
 

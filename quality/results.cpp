@@ -59,17 +59,22 @@ Json view_json(const scene::View& view) {
   return json;
 }
 
-Json run_json(const Run& run) {
-  Json settings = Json::object();
-  for (const auto& [name, value] : run.settings) {
-    std::visit([&, &key = name](const auto& v) { settings[key] = v; }, value);
+Json settings_json(const std::map<std::string, Value>& settings) {
+  Json json = Json::object();
+  for (const auto& [name, value] : settings) {
+    std::visit([&, &key = name](const auto& v) { json[key] = v; }, value);
   }
+  return json;
+}
+
+Json run_json(const Run& run) {
   const AirlightError& error = run.airlight_error;
   Json json = {
       {"volume", run.volume},
       {"surface", run.surface},
       {"name", run.name},
-      {"settings", settings},
+      {"settings", settings_json(run.settings)},
+      {"surface_settings", settings_json(run.surface_settings)},
       {"command", run.command},
       {"stages_ms", run.stages_ms},
       {"frame_ms", run.frame_ms},
@@ -95,6 +100,9 @@ Json run_json(const Run& run) {
     json["mrays_per_s"] = run.mrays_per_s;
   }
   if (run.march_ratio > 0.0) json["march_ratio"] = run.march_ratio;
+  for (const Run::DebugImage& image : run.debug_images)
+    json["debug_images"].push_back(
+        {{"name", image.name}, {"caption", image.caption}, {"white", single(image.white)}});
   return json;
 }
 

@@ -17,11 +17,18 @@ namespace airlight::quality {
 /// One volume method with one surface method, timed and judged. See docs/results.schema.json for the unit of
 /// each.
 struct Run {
-  std::string volume, surface;  ///< specs, as the user wrote them
-  std::string name;             ///< stem of its images' file names
-  std::map<std::string, Value> settings;
-  std::string command;     ///< repeats this run
-  bool is_judged = false;  ///< whether --max-error applies to its airlight
+  /// A debug image of its volume method.
+  struct DebugImage {
+    std::string name;  ///< stem of its files' names
+    std::string caption;
+    float white;  ///< the value that is white in the PNG
+  };
+  std::string volume, surface;                    ///< specs, as the user wrote them
+  std::string name;                               ///< stem of its images' file names
+  std::map<std::string, Value> settings;          ///< what the volume method was told
+  std::map<std::string, Value> surface_settings;  ///< what the surface method was told
+  std::string command;                            ///< repeats this run
+  bool is_judged = false;                         ///< whether --max-error applies to its airlight
   std::map<std::string, double> stages_ms;
   double frame_ms = 0.0;
   int frames = 0;
@@ -32,6 +39,7 @@ struct Run {
   AirlightError airlight_error{};
   SameSurfaceError same_surface_error{};
   SurfaceError surface_error{};
+  std::vector<DebugImage> debug_images;
 };
 
 /// The truth that the runs of a comparison are judged by.

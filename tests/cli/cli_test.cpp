@@ -233,7 +233,7 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{{"--up", "0,0,1"}, "parallel"}, Misuse{{"--light-position", "0,1,0"}, "--intensity"},
         Misuse{{"--light", "0", "--light-position", "0,1,0", "--intensity", "1"}, "--light"},
         Misuse{{"--phase", "mie"}, "unknown"}, Misuse{{"--rayleigh-weight", "0.5"}, "hoffman-preetham"},
-        Misuse{{"--volume", "froxel"}, "reference-march"}, Misuse{{"--surface", "psv"}, "shadow-map"},
+        Misuse{{"--volume", "froxel"}, "reference-march"}, Misuse{{"--surface", "psv"}, "shadow-map, vsv"},
         Misuse{{"--volume", "vsv,none"}, "one method"}, Misuse{{"--volume", ""}, "--volume"},
         Misuse{{"--volume", "vsv:integral=sum"}, "riemann"}, Misuse{{"--volume", "vsv:shade=1"}, "integral"}));
 
@@ -612,13 +612,14 @@ using Compare = CommandLine;
 
 TEST_F(Compare, ResultsFollowTheirSchema) {
   const Json schema = Json::parse(read_text(AIRLIGHT_SCHEMA));
-  const Json results =
-      compare({"--volume",
-               "none,vsv,vsv:integral=riemann,vsv:integral=factored:scan=fused:phi-cells=equal,reference,"
-               "reference-march:steps=64,reference-march:steps=64:rays=single",
-               "--surface", "none,shadow-map,reference"});
+  const Json results = compare(
+      {"--volume",
+       "none,vsv,vsv:integral=riemann:populate=conservative,vsv:integral=factored:scan=fused:phi-cells=equal,"
+       "vsv:populate=screen-space:scan=multi-pass,reference,reference-march:steps=64,"
+       "reference-march:steps=64:rays=single",
+       "--surface", "none,shadow-map,vsv,reference", "--debug"});
   EXPECT_THAT(tests::schema_violations(results, schema), IsEmpty());
-  EXPECT_EQ(results["runs"].size(), 21u);
+  EXPECT_EQ(results["runs"].size(), 32u);
 
   // The check itself sees what is missing, what is not documented, and what is of the wrong type.
   Json broken = results;
@@ -662,6 +663,60 @@ TEST_F(Compare, SolidsOfOpenPartsAreWarnedOf) {
   EXPECT_EQ(small({"compare", "cornell", "-o", "out", "--populate", "screen-space"}).err.find("parts are open"),
             std::string::npos);
   EXPECT_EQ(small({"compare", "half-space", "-o", "out"}).err.find("parts are open"), std::string::npos);
+}
+
+TEST_F(Compare, DebugAddsPicturesOfTheGrid) {
+  const Json results =
+      compare({"--volume", "vsv,vsv:populate=conservative:integral=riemann:alpha=48,none", "--debug"});
+  const std::string report = read_text(file("out/report.html"));
+  for (int i = 0; i < 2; ++i) {
+    const Json& run = results["runs"][static_cast<std::size_t>(i)];
+    EXPECT_THAT(run["command"], HasSubstr(" --debug"));
+    std::map<std::string, Image> images;
+    const std::string prefix = run["name"].get<std::string>() + "_";
+    for (const Json& picture : run["debug_images"]) {
+      const std::string name = picture["name"];
+      EXPECT_THAT(name, StartsWith(prefix));
+      EXPECT_THAT(read_text(file("out/" + name + ".png")), StartsWith("\x89PNG"));
+      const Image image = quality::read_exr(file("out/" + name + ".exr"));
+      const std::vector<float>& values = image.channels.at("Y");
+      EXPECT_EQ(*std::max_element(values.begin(), values.end()), picture["white"]);
+      EXPECT_EQ(image.metadata.at("airlight.caption"), picture["caption"]);
+      EXPECT_THAT(report, HasSubstr(name.substr(name.rfind('+') + 1) + ".png"));
+      images[name.substr(prefix.size())] = image;
+    }
+    ASSERT_EQ(images.size(), 3u);
+    const Image &before = images.at("grid_before_scan"), &after = images.at("grid_after_scan");
+    EXPECT_EQ(before.size, glm::ivec2(i == 0 ? 64 : 48, 128));
+    EXPECT_EQ(after.size, before.size);
+    EXPECT_EQ(images.at("shadowed_samples").size, glm::ivec2(32, 32));
+    for (std::size_t pixel = 0; pixel < before.channels.at("Y").size(); ++pixel)
+      EXPECT_GE(after.channels.at("Y")[pixel], before.channels.at("Y")[pixel]);
+    EXPECT_GT(mean(after.channels.at("Y")), mean(before.channels.at("Y")));
+  }
+  EXPECT_FALSE(results["runs"][2].contains("debug_images"));
+}
+
+TEST_F(Compare, DebugWithoutAPictureIsAWarning) {
+  const Words words = {"compare", "cornell", "-o", "out", "--volume", "none", "--frames", "1"};
+  EXPECT_THAT(small(words).err, testing::Not(HasSubstr("warning")));
+  Words with_debug = words;
+  with_debug.push_back("--debug");
+  const Result result = small(with_debug);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.err, HasSubstr("warning: --debug"));
+}
+
+TEST_F(Compare, SurfaceMethodsHaveSettingsOfTheirOwn) {
+  const Json run = compare({"--volume", "vsv:alpha=32", "--surface", "vsv:theta=256"})["runs"][0];
+  EXPECT_EQ(run["settings"]["alpha"], 32);
+  EXPECT_EQ(run["settings"]["theta"], 128);
+  EXPECT_EQ(run["surface_settings"]["alpha"], 64);
+  EXPECT_EQ(run["surface_settings"]["theta"], 256);
+  EXPECT_EQ(run["bytes"]["grid"], 32 * 128 * 128 / 8 + 64 * 256 * 128 / 8);
+  const Image image = render({"--volume", "vsv:alpha=32", "--surface", "vsv:theta=256"});
+  EXPECT_EQ(image.metadata.at("airlight.alpha"), "32");
+  EXPECT_EQ(image.metadata.at("airlight.surface.alpha"), "64");
 }
 
 TEST_F(Compare, JudgesByTheReference) {

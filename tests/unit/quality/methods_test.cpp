@@ -74,8 +74,9 @@ TEST(MethodSpec, MistakesAreNamedWithWhatIsValid) {
 }
 
 TEST(MethodSpec, OfSurfacesHasItsOwnMethods) {
-  EXPECT_EQ(parse_surfaces("none,shadow-map,reference", {}).size(), 3u);
-  EXPECT_THROW(parse_surfaces("vsv", {}), Error);
+  EXPECT_EQ(parse_surfaces("none,shadow-map,vsv:theta=64,reference", {}).size(), 4u);
+  EXPECT_THROW(parse_surfaces("reference-march", {}), Error);
+  EXPECT_THROW(parse_surfaces("vsv:integral=table", {}), Error);
 }
 
 TEST(Registry, EveryKeyOfAMethodExistsAndReadsBackWhatWasSet) {

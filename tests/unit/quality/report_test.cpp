@@ -19,6 +19,8 @@ Comparison one_run() {
   run.name = "vsv_alpha-64+shadow-map";
   run.command = "airlight compare 'a & b'";
   run.settings = {{"alpha", 64}};
+  run.surface_settings = {{"theta", 32}};
+  run.debug_images = {{"vsv_alpha-64+shadow-map_grid", "the grid, rows of θ", 0.25f}};
   run.stages_ms = {{"scan", 3.5}};
   run.frame_ms = 1.0;
   run.airlight_error.rrmse = 0.0005;
@@ -33,6 +35,9 @@ TEST(Report, ShowsEachRunWithItsImagesAndCommand) {
   EXPECT_THAT(html, HasSubstr("src=\"vsv_alpha-64%2Bshadow-map_error.png\""));
   EXPECT_THAT(html, HasSubstr("src=\"reference.png\""));
   EXPECT_THAT(html, HasSubstr("alpha=64"));
+  EXPECT_THAT(html, HasSubstr("surface theta=32"));
+  EXPECT_THAT(html, HasSubstr("src=\"vsv_alpha-64%2Bshadow-map_grid.png\""));
+  EXPECT_THAT(html, HasSubstr("the grid, rows of θ; white is 25 %"));
   EXPECT_THAT(html, HasSubstr("<td>3.50</td>"));
   EXPECT_THAT(html, HasSubstr("airlight compare 'a &amp; b'"));
 }

@@ -23,6 +23,8 @@ Comparison two_runs() {
   vsv.surface = "shadow-map";
   vsv.name = "vsv+shadow-map";
   vsv.settings = {{"alpha", 512}, {"integral", std::string("table")}};
+  vsv.surface_settings = {{"theta", 64}};
+  vsv.debug_images = {{"vsv+shadow-map_grid", "the grid", 0.5f}};
   vsv.stages_ms = {{"scan", 3.0}};
   vsv.frame_ms = 4.0;
   vsv.march_ratio = 5.0;
@@ -31,6 +33,7 @@ Comparison two_runs() {
   Run march = vsv;
   march.volume = "reference-march";
   march.stages_ms = {{"integrate", 20.0}};
+  march.debug_images = {};
   march.rays = 1'000'000;
   march.mrays_per_s = 50.0;
   march.airlight_error.rrmse = 0.0005;
@@ -44,6 +47,10 @@ TEST(ResultsJson, KeepsRawFigures) {
   EXPECT_EQ(results["reference"]["self_error"], 0.001);
   const json& vsv = results["runs"][0];
   EXPECT_EQ(vsv["settings"], (json{{"alpha", 512}, {"integral", "table"}}));
+  EXPECT_EQ(vsv["surface_settings"], (json{{"theta", 64}}));
+  EXPECT_EQ(vsv["debug_images"],
+            json::array({{{"name", "vsv+shadow-map_grid"}, {"caption", "the grid"}, {"white", 0.5}}}));
+  EXPECT_FALSE(results["runs"][1].contains("debug_images"));
   EXPECT_EQ(vsv["error"]["airlight"]["rrmse"], 0.0123);
   EXPECT_EQ(vsv["march_ratio"], 5.0);
   EXPECT_FALSE(vsv.contains("rays"));

@@ -1,0 +1,69 @@
+#include "epipolar/debug_images.h"
+
+#include <bit>
+#include <utility>
+
+#include "spirv/epipolar/shadowed_samples_comp.h"
+
+namespace airlight::epipolar {
+namespace {
+
+constexpr int k_longest_side = 4096;  ///< of a picture of the grid [pixels]
+
+int divide_up(int a, int b) {
+  return (a + b - 1) / b;
+}
+
+/// Counts the bits on the CPU, which reads a grid of any size at once.
+frame::DebugImage grid_image(const Grid& grid, const char* name, const char* caption) {
+  const auto& [alpha, theta, phi] = grid.resolution();
+  const int columns = divide_up(alpha, k_longest_side), rows = divide_up(theta, k_longest_side);
+  frame::DebugImage image{name, caption, {divide_up(alpha, columns), divide_up(theta, rows)}, {}};
+  const auto pixel_of = [&](int i, int j) {
+    return static_cast<std::size_t>(j / rows) * static_cast<std::size_t>(image.size.x) +
+           static_cast<std::size_t>(i / columns);
+  };
+  const auto pixels = static_cast<std::size_t>(image.size.x) * static_cast<std::size_t>(image.size.y);
+  std::vector<std::int64_t> set(pixels), all(pixels);
+  const std::vector<std::uint32_t> bits = grid.bits().read<std::uint32_t>();
+  auto word = bits.begin();
+  for (int j = 0; j < theta; ++j) {
+    for (int i = 0; i < alpha; ++i) {
+      const std::size_t pixel = pixel_of(i, j);
+      all[pixel] += phi;
+      for (const auto end = word + phi / 32; word != end; ++word) set[pixel] += std::popcount(*word);
+    }
+  }
+  for (std::size_t pixel = 0; pixel < pixels; ++pixel)
+    image.values.push_back(
+        static_cast<float>(static_cast<double>(set[pixel]) / static_cast<double>(all[pixel])));
+  return image;
+}
+
+frame::DebugImage shadowed_samples(const Grid& grid, const frame::FrameInputs& inputs) {
+  const gpu::Program program =
+      gpu::Program::compute(k_shadowed_samples_comp, resolution_constants(grid.resolution()));
+  const gpu::Texture fractions(gpu::Format::r32f, inputs.view.size);
+  inputs.surfaces.bind_sampler(0);
+  fractions.bind_image(0);
+  program.dispatch({inputs.view.size, 1}, {8, 8, 1});
+  return {"shadowed_samples", "shadowed samples of each view ray before it ends, of all its samples",
+          inputs.view.size, fractions.read<float>()};
+}
+
+}  // namespace
+
+std::vector<frame::DebugImage> debug_images(ShadowVolume& volume, const frame::FrameInputs& inputs) {
+  const Grid& grid = volume.grid();
+  frame::DebugImage after =
+      grid_image(grid, "grid_after_scan",
+                 "voxels in shadow on each view ray of the grid: a row for each θ, α to the right");
+  frame::DebugImage samples = shadowed_samples(grid, inputs);
+  volume.fill_unscanned(inputs);
+  frame::DebugImage before = grid_image(
+      grid, "grid_before_scan",
+      "voxels where shadow begins, on each view ray of the grid: a row for each θ, α to the right");
+  return {std::move(before), std::move(after), std::move(samples)};
+}
+
+}  // namespace airlight::epipolar

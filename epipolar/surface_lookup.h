@@ -1,0 +1,31 @@
+#pragma once
+
+#include "epipolar/volume.h"
+#include "frame/methods.h"
+#include "gpu/program.h"
+
+namespace airlight::epipolar {
+
+/// `vsv` for surfaces: a surface is lit where one bit of a voxelized shadow volume of its own says so.
+/// Based on: Wyman, "Voxelized Shadow Volumes", HPG 2011, section 2.2.3 and Fig. 7. A way to look at the
+/// volume rather than a way to shadow surfaces: its edges are as coarse as the cells, and they move with the
+/// eye.
+///
+/// Deviation: the paper queries "the voxel containing each fragment", which the surface darkens itself. Here
+/// it is the last voxel on the same light ray that the surface's own plane leaves alone, and a surface that
+/// faces away from the light is dark without being asked.
+class SurfaceLookup : public frame::SurfaceShadow {
+ public:
+  /// @throws scene::Error as Grid.
+  SurfaceLookup(const gpu::Context& context, const VolumeSettings& volume);
+
+  bool needs_shadow_map() const override { return volume_.needs_shadow_map(); }
+  void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override;
+  std::map<std::string, std::int64_t> bytes() const override { return volume_.bytes(); }
+
+ private:
+  ShadowVolume volume_;
+  gpu::Program program_;
+};
+
+}  // namespace airlight::epipolar

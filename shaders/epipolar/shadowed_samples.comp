@@ -1,0 +1,38 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "frame/view.glsl"
+#include "epipolar/grid.glsl"
+#include "epipolar/resolution.glsl"
+#include "epipolar/phi_range.glsl"
+
+// How many of the samples along each pixel's view ray are in shadow, of all N_φ (Fig. 7, bottom): set bits of its row whose
+// centre lies before the end of the ray.
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(std140, binding = 0) uniform ViewUniform { ViewBlock view; };
+layout(std140, binding = 1) uniform EpipolarUniform { EpipolarBlock space; };
+layout(binding = 0) uniform sampler2D surface_image;
+layout(binding = 12) uniform usamplerBuffer grid_texels;
+layout(binding = 0, r32f) uniform writeonly image2D fraction_image;
+
+void main() {
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(vec2(pixel), vec2(view.image_width, view.image_height)))) return;
+  vec3 direction = view_ray(view, vec2(pixel) + 0.5);
+  EyeAngle angle = eye_angle(space, direction, quarter_pixel(view));
+  float t = texelFetch(surface_image, pixel, 0).w;
+  float phi_end = t > 0.0 ? phi_at(space, angle, t) : alpha_complement(angle);
+  int end = int(clamp(ceil(cell_of_phi(phi_cells(), phi_end) - 0.5), 0.0, float(k_phi_count)));
+  uint i = alpha_cell(space, alpha_of(angle), k_alpha_count);
+  uint j = theta_cell(space, theta_of(space, direction), k_theta_count);
+  int row = int((j * k_alpha_count + i) * k_texels_per_ray);
+  int count = 0;
+  for (int first = 0; first < end; first += 128) {
+    uvec4 words = texelFetch(grid_texels, row + (first >> 7));
+    for (int word = 0; word < 4; ++word) {
+      int wanted = clamp(end - first - 32 * word, 0, 32);
+      uint mask = wanted == 32 ? 0xffffffffu : (1u << uint(wanted)) - 1u;
+      count += bitCount(words[word] & mask);
+    }
+  }
+  imageStore(fraction_image, pixel, vec4(float(count) / float(k_phi_count)));
+}

@@ -1,0 +1,192 @@
+#include "epipolar/surface_lookup.h"
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "epipolar/space.h"
+#include "frame/frame.h"
+#include "support/gpu_context.h"
+#include "support/scenes.h"
+
+namespace airlight::epipolar {
+namespace {
+
+using tests::builtin;
+using tests::view_of;
+
+/// All angles, so that a cell's width follows from the count.
+VolumeSettings settings_of(Populate populate) {
+  return {.resolution = {512, 1024, 512}, .populate = populate, .ranges = Ranges::full};
+}
+
+/// What a pixel sees, and what the look-up says about it.
+struct Seen {
+  glm::dvec3 point;
+  bool is_lit;
+};
+
+std::vector<Seen> look(const scene::Geometry& geometry, const scene::View& view,
+                       const VolumeSettings& settings, int shadow_map_size = 2048) {
+  frame::Frame frame(tests::gpu_context(), geometry, shadow_map_size);
+  SurfaceLookup lookup(tests::gpu_context(), settings);
+  frame::NoAirlight no_airlight;
+  gpu::StageTimer timer(nullptr);
+  frame.render(view, lookup, no_airlight, timer);
+  const frame::FrameImages images = frame.read();
+  const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
+  std::vector<Seen> seen;
+  for (std::size_t i = 0; i < images.distance.size(); ++i) {
+    if (images.distance[i] == 0.0f) continue;
+    const auto width = static_cast<std::size_t>(view.size.x);
+    const double x = (2.0 * (static_cast<double>(i % width) + 0.5) / view.size.x - 1.0) * camera.half_width;
+    const double y = (1.0 - 2.0 * (static_cast<double>(i / width) + 0.5) / view.size.y) * camera.half_height;
+    const glm::dvec3 ray = glm::normalize(camera.forward + x * camera.right + y * camera.up);
+    seen.push_back(
+        {camera.eye + static_cast<double>(images.distance[i]) * ray, images.visibility[i] == 1.0f});
+  }
+  return seen;
+}
+
+/// An occluder above a floor, with the shadow it casts in closed form.
+struct Shadow {
+  const char* scene;
+  double floor;  ///< y [m]
+  scene::Camera camera;
+  std::function<bool(glm::dvec3 light, glm::dvec3 point)> is_lit;
+};
+
+const Shadow k_half_space = {
+    "half-space",
+    -2.5,
+    {"", {1.5, -1.0, 7.0}, {-0.6, -2.5, 0.0}, {0, 1, 0}, 50.0},
+    [](glm::dvec3, glm::dvec3 point) { return point.x > 0; },
+};
+const Shadow k_sphere = {
+    "sphere",
+    -2.0,
+    {"", {2.0, 2.0, 5.0}, {0.0, -1.0, 0.0}, {0, 1, 0}, 60.0},
+    [](glm::dvec3 light, glm::dvec3 point) {
+      const glm::dvec3 to_point = point - light;
+      const double nearest = -glm::dot(light, to_point) / glm::dot(to_point, to_point);
+      return nearest <= 0 || nearest >= 1 || glm::length(light + nearest * to_point) > 1;
+    },
+};
+
+class SurfaceLookupOn : public testing::TestWithParam<std::tuple<Populate, const Shadow*>> {};
+
+TEST_P(SurfaceLookupOn, AFloorIsExactToOneCell) {
+  const auto& [populate, shadow] = GetParam();
+  const scene::Scene& scene = builtin(shadow->scene);
+  scene::Geometry geometry = scene.geometry;
+  tests::add_quad(geometry, {-20, shadow->floor, -20}, {40, 0, 0}, {0, 0, 40});
+  scene::View view = view_of(scene, {128, 128});
+  view.camera = shadow->camera;
+  const VolumeSettings settings = settings_of(populate);
+
+  const Axes axes = make_axes(glm::normalize(view.light.position - view.camera.eye));
+  const double theta_step = 2 * std::numbers::pi / settings.resolution.theta;
+  const double phi_step = std::numbers::pi / settings.resolution.phi;
+  int lit = 0, dark = 0, wrong = 0;
+  for (const Seen& pixel : look(geometry, view, settings)) {
+    if (std::abs(pixel.point.y - shadow->floor) > 1e-4) continue;  // on the occluder
+    ++(pixel.is_lit ? lit : dark);
+    const glm::dvec3 from_light = pixel.point - view.light.position;
+    const double x = glm::dot(from_light, axes.u), y = glm::dot(from_light, axes.f);
+    const double theta = std::atan2(y, x);
+    const double phi = std::atan2(std::hypot(x, y), -glm::dot(from_light, axes.axis));
+    // Whether a light ray within a cell of the pixel's agrees. A quarter of a cell more is for the slack of
+    // voxelization, which grows with the size of a triangle: that of the half-plane is 2000 m.
+    bool is_near = false;
+    for (double a = -1.25; a <= 1.25; a += 0.25) {
+      for (double b = -1.25; b <= 1.25; b += 0.25) {
+        const double t = theta + a * theta_step, p = phi + b * phi_step;
+        const glm::dvec3 ray =
+            std::sin(p) * (std::cos(t) * axes.u + std::sin(t) * axes.f) - std::cos(p) * axes.axis;
+        const glm::dvec3 point = view.light.position + from_light.y / ray.y * ray;
+        is_near = is_near || shadow->is_lit(view.light.position, point) == pixel.is_lit;
+      }
+    }
+    wrong += !is_near;
+  }
+  EXPECT_GT(lit, 1000);
+  EXPECT_GT(dark, 300);
+  EXPECT_EQ(wrong, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shadows, SurfaceLookupOn,
+                         testing::Combine(testing::Values(Populate::shadow_map, Populate::conservative),
+                                          testing::Values(&k_half_space, &k_sphere)));
+
+class SurfaceLookupBy : public testing::TestWithParam<Populate> {};
+
+TEST_P(SurfaceLookupBy, ABodyIsLitWhereItFacesTheLight) {
+  const scene::Scene& scene = builtin("sphere");
+  scene::View view = view_of(scene, {128, 128});
+  view.camera = k_sphere.camera;
+  int lit = 0, dark = 0, wrong = 0;
+  for (const Seen& pixel : look(scene.geometry, view, settings_of(GetParam()))) {
+    const double cosine =
+        glm::dot(glm::normalize(pixel.point), glm::normalize(view.light.position - pixel.point));
+    // Where light grazes a facet, its neighbours, a thousandth of a radius away, may cast shadow.
+    if (std::abs(cosine) < 0.1) continue;
+    ++(pixel.is_lit ? lit : dark);
+    wrong += pixel.is_lit != (cosine > 0);
+  }
+  EXPECT_GT(lit, 200);
+  EXPECT_GT(dark, 200);
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST_P(SurfaceLookupBy, ALonePlaneIsLitWhollyAtAnySlope) {
+  scene::Geometry plane;
+  tests::add_quad(plane, {-12, 0, -12}, {24, 0, 0}, {0, 0, 24});
+  scene::View view;
+  view.camera.eye = {0, 4, 8};
+  view.camera.target = {0, 0, 0};
+  view.size = {64, 64};
+  for (double height : {5.0, 0.5, 0.05}) {
+    view.light.position = {1, height, -1};
+    for (int shadow_map_size : {128, 2048}) {
+      for (Ranges ranges : {Ranges::frame, Ranges::full}) {
+        int dark = 0;
+        VolumeSettings settings = settings_of(GetParam());
+        settings.ranges = ranges;
+        for (const Seen& pixel : look(plane, view, settings, shadow_map_size)) dark += !pixel.is_lit;
+        EXPECT_EQ(dark, 0) << "with the light at " << height << " and " << shadow_map_size << " texels";
+      }
+    }
+  }
+}
+
+TEST_P(SurfaceLookupBy, AThinSheetIsDarkBehind) {
+  scene::Geometry sheet;
+  tests::add_quad(sheet, {-50, 0, -50}, {100, 0, 0}, {0, 0, 100});
+  scene::View view;
+  view.camera.eye = {0, 4, 8};
+  view.camera.target = {0, 0, 0};
+  view.light.position = {1, -2, -1};
+  view.size = {64, 64};
+  for (const Seen& pixel : look(sheet, view, settings_of(GetParam()))) EXPECT_FALSE(pixel.is_lit);
+}
+
+INSTANTIATE_TEST_SUITE_P(Populates, SurfaceLookupBy,
+                         testing::Values(Populate::shadow_map, Populate::conservative));
+
+TEST(SurfaceLookup, TimesTheStagesOfItsVolumeOnce) {
+  const scene::Scene& scene = builtin("cornell");
+  frame::Frame frame(tests::gpu_context(), scene.geometry, 256);
+  SurfaceLookup lookup(tests::gpu_context(), {.resolution = {64, 128, 128}});
+  frame::NoAirlight no_airlight;
+  gpu::StageTimer timer(&tests::gpu_context());
+  frame.render(view_of(scene, {32, 32}), lookup, no_airlight, timer);
+  const auto& stages = timer.milliseconds();
+  for (const char* stage : {"ranges", "populate", "scan", "surface_query"})
+    EXPECT_TRUE(stages.contains(stage)) << stage;
+  EXPECT_EQ(lookup.bytes().at("grid"), 64 * 128 * 128 / 8);
+}
+
+}  // namespace
+}  // namespace airlight::epipolar
