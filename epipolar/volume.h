@@ -31,7 +31,7 @@ enum class Scan {
 
 /// How a shadow volume is made.
 struct VolumeSettings {
-  Resolution resolution;
+  Resolution resolution = {};
   Populate populate = Populate::shadow_map;
   std::optional<Scan> scan = {};  ///< the fastest if none
   Ranges ranges = Ranges::frame;

@@ -81,6 +81,8 @@ AirlightError airlight_error(std::span<const float> x, std::span<const float> r)
   error.p99 = relative(percentile_99(differences), mean_r);
   error.max = relative(*std::max_element(differences.begin(), differences.end()), mean_r);
   error.relmse = sum_relative_squares / count;
+  error.leaked = relative(0.5 * (sum_absolute + (sum_x - sum_r)) / count, mean_r);
+  error.spurious = relative(0.5 * (sum_absolute - (sum_x - sum_r)) / count, mean_r);
   error.psnr =
       error.rmse == 0.0 ? std::numeric_limits<double>::infinity() : 20.0 * std::log10(largest_r / error.rmse);
   return error;
@@ -107,6 +109,8 @@ SameSurfaceError same_surface_error(std::span<const float> x, std::span<const fl
   const AirlightError kept = airlight_error(kept_x, kept_r);
   error.bias = kept.bias;
   error.rrmse = kept.rrmse;
+  error.leaked = kept.leaked;
+  error.spurious = kept.spurious;
   return error;
 }
 

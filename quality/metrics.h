@@ -12,8 +12,10 @@ struct AirlightError {
   double mae;    ///< mean |x − r| / mean(r)
   double p99;  ///< the smallest value that at least 99 % of |x − r| / mean(r) do not exceed (nearest rank)
   double max;  ///< largest |x − r| / mean(r)
-  double relmse;  ///< mean((x − r)² / (r² + ε)), ε = 1e-2 · mean(r)²
-  double psnr;    ///< 20·log10(max(r) / rmse) [dB]; +Inf for equal images
+  double relmse;    ///< mean((x − r)² / (r² + ε)), ε = 1e-2 · mean(r)²
+  double leaked;    ///< Σ max(0, x − r) / Σ r: light where there is none
+  double spurious;  ///< Σ max(0, r − x) / Σ r: shadow where there is none
+  double psnr;      ///< 20·log10(max(r) / rmse) [dB]; +Inf for equal images
 };
 
 /// Compares two images of the same length, any channel layout.
@@ -27,8 +29,8 @@ AirlightError airlight_error(std::span<const float> x, std::span<const float> r)
 /// through their centre hits; their error is not the airlight's, and where a bright background meets a dark
 /// edge it outweighs all others.
 struct SameSurfaceError {
-  double bias, rrmse;           ///< as in AirlightError, over the pixels that are kept
-  std::size_t left_out_pixels;  ///< those that see different surfaces
+  double bias, rrmse, leaked, spurious;  ///< as in AirlightError, over the pixels that are kept
+  std::size_t left_out_pixels;           ///< those that see different surfaces
 };
 
 /// @param x, r images of as many channels a pixel as their lengths tell; @param distance, reference_distance

@@ -85,6 +85,8 @@ pixel, shows another surface than the reference's ray hits, and how many those a
 <dt>bias [%]</dt><dd>mean(x) / mean(r) − 1.</dd>
 <dt>mae, p99, max [%]</dt><dd>Mean, 99th percentile and largest value of |x − r|, divided by mean(r).</dd>
 <dt>relmse</dt><dd>mean((x − r)² / (r² + ε)), ε = 0.01 · mean(r)²; no unit.</dd>
+<dt>leaked, spurious shadow [%]</dt><dd>Σ max(0, x − r) / Σ r and Σ max(0, r − x) / Σ r, over the pixels of same-surface rrmse:
+light, and shadow, where there is none.</dd>
 <dt>wrong pixels</dt><dd>Surface shadow: pixels lit in one image and dark in the other, of those where both see a surface, against one
 shadow ray a pixel.</dd>
 <dt>memory [MiB]</dt><dd>GPU memory of scene, shadow map and method.</dd>
@@ -106,7 +108,8 @@ std::string results_rows(const Comparison& comparison) {
             cell(error_text(run.same_surface_error.rrmse, comparison.truth.self_error)) +
             cell(fmt::format("{}", run.same_surface_error.left_out_pixels)) + cell(percent(error.bias, "+")) +
             cell(percent(error.mae)) + cell(percent(error.p99)) + cell(percent(error.max)) +
-            cell(fmt::format("{:.3g}", error.relmse)) +
+            cell(fmt::format("{:.3g}", error.relmse)) + cell(percent(run.same_surface_error.leaked)) +
+            cell(percent(run.same_surface_error.spurious)) +
             cell(fmt::format("{} / {}", run.surface_error.wrong_pixels, run.surface_error.pixels)) +
             cell(fmt::format("{:.1f}", static_cast<double>(bytes) / (1 << 20))) + "</tr>\n";
   }
@@ -205,7 +208,7 @@ std::string report_html(const Comparison& comparison) {
       "<h2>Time and error</h2>\n<div class=\"scroll\"><table><thead><tr><th class=\"name\">volume</th>"
       "<th class=\"name\">surface</th><th>frame [ms]</th><th>frames</th><th>march/frame</th><th>Mrays/s</th>"
       "<th>rrmse [%]</th><th>same-surface rrmse [%]</th><th>left out [pixels]</th><th>bias [%]</th><th>mae "
-      "[%]</th><th>p99 [%]</th><th>max [%]</th><th>relmse</th>"
+      "[%]</th><th>p99 [%]</th><th>max [%]</th><th>relmse</th><th>leaked [%]</th><th>spurious shadow [%]</th>"
       "<th>wrong pixels</th><th>memory [MiB]</th></tr></thead><tbody>\n" +
       results_rows(comparison) + "</tbody></table></div>\n";
   html += "<h2>Stages [ms]</h2>\n<div class=\"scroll\">" + stages_table(comparison) + "</div>\n";

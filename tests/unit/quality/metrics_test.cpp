@@ -25,6 +25,8 @@ TEST(AirlightError, MatchesTwoByTwoImagesWorkedOutByHand) {
   EXPECT_DOUBLE_EQ(error.max, 1.0);
   // ε = 1e-2 · 2² = 0.04.
   EXPECT_DOUBLE_EQ(error.relmse, (1.0 / 1.04 + 4.0 / 16.04) / 4.0);
+  EXPECT_DOUBLE_EQ(error.leaked, 1.0 / 8.0);
+  EXPECT_DOUBLE_EQ(error.spurious, 2.0 / 8.0);
   EXPECT_DOUBLE_EQ(error.psnr, 20.0 * std::log10(4.0 / std::sqrt(5.0 / 4.0)));
 }
 
