@@ -68,6 +68,8 @@ Grid::Grid(const gpu::Context& context, const Resolution& resolution) : resoluti
   first_shadowed_texels_ = {context, first_shadowed_, gpu::Format::rgba32ui, name};
   block_ = gpu::Buffer(sizeof(shaders::EpipolarBlock));
   phi_range_ = gpu::Buffer(2 * sizeof(float));
+  planes_ = gpu::Buffer(std::int64_t{theta} * 4 * static_cast<std::int64_t>(sizeof(float)));
+  plane_texels_ = {context, planes_, gpu::Format::rgba32f, name};
   pass_ = gpu::Buffer(8 * sizeof(std::uint32_t));
 }
 
@@ -75,6 +77,7 @@ void Grid::bind() const {
   block_.bind_uniform(1);
   phi_range_.bind_storage(4);
   first_shadowed_.bind_storage(7);
+  plane_texels_.bind_sampler(7);
   texels_.bind_sampler(12);
   first_shadowed_texels_.bind_sampler(14);
 }

@@ -43,11 +43,13 @@ class Grid {
   const gpu::Buffer& block() const { return block_; }          ///< EpipolarBlock
   const gpu::Buffer& phi_range() const { return phi_range_; }  ///< see shaders/epipolar/phi_range.glsl
 
+  const gpu::Buffer& planes() const { return planes_; }  ///< see shaders/epipolar/planes.glsl
+
   /// For each light ray (θ_j, φ_k), at index j·N_φ + k, the first cell of α in shadow; N_α where none is.
   const gpu::Buffer& first_shadowed() const { return first_shadowed_; }
 
   /// Binds the block to uniform binding 1, the φ range to storage binding 4, the first shadowed cells to
-  /// storage binding 7 and sampler 14, the bits as texels to sampler 12.
+  /// storage binding 7 and sampler 14, the planes to sampler 7, the bits as texels to sampler 12.
   void bind() const;
 
   /// What all planes together consist of.
@@ -60,8 +62,8 @@ class Grid {
  private:
   Resolution resolution_;
   std::vector<Window> windows_;
-  gpu::Buffer bits_, block_, phi_range_, first_shadowed_, pass_;
-  gpu::TexelView texels_, first_shadowed_texels_;
+  gpu::Buffer bits_, block_, phi_range_, planes_, first_shadowed_, pass_;
+  gpu::TexelView texels_, plane_texels_, first_shadowed_texels_;
 };
 
 /// Runs `program` once a window over `invocations_x` × planes; its shader includes

@@ -6,6 +6,7 @@
 #include "scene/error.h"
 
 #include "spirv/epipolar/phi_range_comp.h"
+#include "spirv/epipolar/planes_comp.h"
 #include "spirv/epipolar/scatter_comp.h"
 
 namespace airlight::epipolar {
@@ -27,6 +28,7 @@ void validate(const VolumeSettings& settings) {
 ShadowVolume::ShadowVolume(const gpu::Context& context, const VolumeSettings& settings)
     : settings_(settings),
       grid_(context, settings.resolution),
+      planes_(gpu::Program::compute(k_planes_comp, resolution_constants(settings.resolution))),
       phi_range_(gpu::Program::compute(k_phi_range_comp)),
       scatter_(gpu::Program::compute(k_scatter_comp, resolution_constants(settings.resolution))) {
   validate(settings);
@@ -66,6 +68,8 @@ shaders::EpipolarBlock ShadowVolume::find_ranges(const frame::FrameInputs& input
     grid_.block().write(&block, sizeof block);
     grid_.phi_range().clear();
     grid_.bind();
+    grid_.planes().bind_storage(9);
+    planes_.dispatch({settings_.resolution.theta, 1, 1}, {64, 1, 1});
     if (settings_.ranges == Ranges::full) {
       const auto order_of_pi = std::bit_cast<std::uint32_t>(2.0f);
       grid_.phi_range().write(&order_of_pi, sizeof order_of_pi);

@@ -70,7 +70,7 @@ class ShadowVolume {
 
   VolumeSettings settings_;
   Grid grid_;
-  gpu::Program phi_range_, scatter_;
+  gpu::Program planes_, phi_range_, scatter_;
   std::optional<PopulateShadowMap> populate_shadow_map_;
   std::optional<PopulateConservative> populate_conservative_;
   std::optional<PopulateScreenSpace> populate_screen_space_;

@@ -41,30 +41,30 @@ FUNCTION float wrapped(float angle) {
   return angle > k_pi ? angle - 2.0f * k_pi : angle < -k_pi ? angle + 2.0f * k_pi : angle;
 }
 
-// The slabs that a triangle may touch: two runs, the second one for what wraps over the end of a full turn.
-struct SlabSpan {
+// The planes whose cells a triangle may touch: two runs, the second one for what wraps over the end of a full turn.
+struct PlaneSpan {
   uint first;
   uint count;
   uint wrapped_first;
   uint wrapped_count;
 };
 
-FUNCTION uint slab_of(IN(EpipolarBlock) space, float from_middle, float slabs, float count) {
-  return uint(clamp(floor(plane_of_theta(space, clamp(from_middle, -k_pi, k_pi)) * slabs), 0.0f, count - 1.0f));
+FUNCTION uint clamped_plane(IN(EpipolarBlock) space, float from_middle, uint theta_count) {
+  float plane = floor(plane_of_theta(space, clamp(from_middle, -k_pi, k_pi)));
+  return uint(clamp(plane, 0.0f, float(theta_count) - 1.0f));
 }
 
 // `a`, `b`, `c`: the corners' coordinates along u and f.
-FUNCTION SlabSpan slabs_of_triangle(IN(EpipolarBlock) space, IN(vec2) a, IN(vec2) b, IN(vec2) c, float slack,
-                                    uint theta_count, uint slabs_a_plane) {
+FUNCTION PlaneSpan planes_of_triangle(IN(EpipolarBlock) space, IN(vec2) a, IN(vec2) b, IN(vec2) c, float slack,
+                                      uint theta_count) {
   float nearest = min(distance_to_segment(a, b), min(distance_to_segment(b, c), distance_to_segment(c, a)));
   float ab = a.x * b.y - a.y * b.x;
   float bc = b.x * c.y - b.y * c.x;
   float ca = c.x * a.y - c.y * a.x;
   bool holds_axis = (ab >= 0.0f && bc >= 0.0f && ca >= 0.0f) || (ab <= 0.0f && bc <= 0.0f && ca <= 0.0f);
-  uint slab_count = theta_count * slabs_a_plane;
-  SlabSpan span;
+  PlaneSpan span;
   span.first = 0u;
-  span.count = slab_count;
+  span.count = theta_count;
   span.wrapped_first = 0u;
   span.wrapped_count = 0u;
   if (holds_axis || nearest <= 2.0f * slack) return span;
@@ -79,18 +79,23 @@ FUNCTION SlabSpan slabs_of_triangle(IN(EpipolarBlock) space, IN(vec2) a, IN(vec2
   float turn = lower < -k_pi ? 2.0f * k_pi : 0.0f;
   lower += turn;
   upper += turn;
-  float slabs = float(slabs_a_plane);
-  float count = float(slab_count);
   span.count = 0u;
   if (lower <= space.theta_half && upper >= -space.theta_half) {
-    span.first = slab_of(space, lower, slabs, count);
-    span.count = slab_of(space, upper, slabs, count) - span.first + 1u;
+    span.first = clamped_plane(space, lower, theta_count);
+    span.count = clamped_plane(space, upper, theta_count) - span.first + 1u;
   }
   if (upper - 2.0f * k_pi >= -space.theta_half) {
-    span.wrapped_first = slab_of(space, lower - 2.0f * k_pi, slabs, count);
-    span.wrapped_count = slab_of(space, upper - 2.0f * k_pi, slabs, count) - span.wrapped_first + 1u;
+    span.wrapped_first = clamped_plane(space, lower - 2.0f * k_pi, theta_count);
+    span.wrapped_count = clamped_plane(space, upper - 2.0f * k_pi, theta_count) - span.wrapped_first + 1u;
   }
   return span;
+}
+
+FUNCTION uint plane_count(IN(PlaneSpan) span) { return span.count + span.wrapped_count; }
+
+// The `index`th plane of a span.
+FUNCTION uint plane_at(IN(PlaneSpan) span, uint index) {
+  return index < span.count ? span.first + index : span.wrapped_first + (index - span.count);
 }
 
 // The outline of the part of a triangle in a slab, seen along it: segments (x, w) to (x, w), with x outwards from the
@@ -211,7 +216,7 @@ FUNCTION float least_alpha_order(IN(SlabOutline) outline, IN(vec2) from_ray, IN(
 struct VoxelTriangle {
   vec3 a, b, c;  // corners: coordinates along u, f and the axis, relative to the eye [m]
   float slack;   // [m]
-  SlabSpan slabs;
+  PlaneSpan planes;
 };
 
 // From the corners relative to the eye, along the world's axes.
@@ -221,17 +226,15 @@ FUNCTION VoxelTriangle voxel_triangle(IN(EpipolarBlock) space, IN(vec3) a, IN(ve
   triangle.b = vec3(dot(b, space.u), dot(b, space.f), dot(b, space.axis));
   triangle.c = vec3(dot(c, space.u), dot(c, space.f), dot(c, space.axis));
   triangle.slack = position_slack(space, a, b, c);
-  triangle.slabs = slabs_of_triangle(space, vec2(triangle.a.x, triangle.a.y), vec2(triangle.b.x, triangle.b.y),
-                                     vec2(triangle.c.x, triangle.c.y), triangle.slack,
-                                     theta_count, slabs_per_plane(space));
+  triangle.planes = planes_of_triangle(space, vec2(triangle.a.x, triangle.a.y), vec2(triangle.b.x, triangle.b.y),
+                                       vec2(triangle.c.x, triangle.c.y), triangle.slack, theta_count);
   return triangle;
 }
 
-// The part of a triangle in one of its slabs.
+// The part of a triangle in a slab.
 struct SlabPart {
   SlabOutline outline;
   float slack;
-  uint plane;      // j of the slab's half-plane
   uint first_ray;  // the cells of φ that it may touch: from here …
   uint end_ray;    // … to before here
 };
@@ -240,24 +243,19 @@ FUNCTION vec3 seen_along_slab(IN(EpipolarBlock) space, IN(vec3) corner, float co
   return vec3(corner.x * cosine + corner.y * sine, space.distance - corner.z, corner.y * cosine - corner.x * sine);
 }
 
-// The `index`th of the triangle's slabs.
-FUNCTION SlabPart part_in_slab(IN(EpipolarBlock) space, IN(PhiCells) cells, IN(VoxelTriangle) triangle, uint index) {
-  uint slab = index < triangle.slabs.count ? triangle.slabs.first + index
-                                           : triangle.slabs.wrapped_first + (index - triangle.slabs.count);
-  uint slabs = slabs_per_plane(space);
-  // The inverse of the planes' spacing is right to 1e-6.
-  float from = theta_of_plane(space, float(slab) / float(slabs)) - 1e-6f;
-  float to = theta_of_plane(space, float(slab + 1u) / float(slabs)) + 1e-6f;
+// The slab between two angles θ from the middle of the range.
+FUNCTION SlabPart part_in_slab(IN(EpipolarBlock) space, IN(PhiCells) cells, IN(VoxelTriangle) triangle, float from,
+                               float to) {
   float theta = space.theta_middle + 0.5f * (from + to);
   float cosine = cos(theta);
   float sine = sin(theta);
-  float tangent = tan(0.5f * (to - from));
+  // The inverse of the planes' spacing is right to 1e-6.
+  float tangent = tan(0.5f * (to - from) + 1e-6f);
   SlabPart part;
   part.outline = outline_in_slab(seen_along_slab(space, triangle.a, cosine, sine),
                                  seen_along_slab(space, triangle.b, cosine, sine),
                                  seen_along_slab(space, triangle.c, cosine, sine), tangent, triangle.slack);
   part.slack = triangle.slack + curvature_slack(part.outline, tangent);
-  part.plane = slab / slabs;
   vec2 orders = phi_order_bounds(part.outline, part.slack);
   // Angles and cells are rounded too.
   float first = floor(cell_of_phi(cells, angle_from_order(max(orders.x, 0.0f))) - 1e-3f);

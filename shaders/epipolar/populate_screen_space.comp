@@ -9,6 +9,6 @@ void main() {
   if (gl_GlobalInvocationID.x >= triangle_count) return;
   uint triangle = first_triangle + gl_GlobalInvocationID.x;
   ScreenTriangle t = fetch_triangle(triangle);
-  uint end = own_slabs(triangle, t.planes.count + t.planes.wrapped_count);
+  uint end = own_planes(triangle, plane_count(t.planes));
   for (uint index = 0u; index < end; ++index) flip_in_plane(t, index);
 }

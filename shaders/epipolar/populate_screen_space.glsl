@@ -11,6 +11,7 @@
 #include "epipolar/resolution.glsl"
 #include "epipolar/window.glsl"
 #include "epipolar/phi_range.glsl"
+#include "epipolar/planes.glsl"
 #include "epipolar/triangle_queue.glsl"
 
 layout(std430, binding = 9) buffer Flips { uint flips[]; };  // as the grid's window, by words
@@ -45,7 +46,7 @@ struct ScreenTriangle {
   vec3 a, b, c;  // coordinates along u, f and the axis, relative to the eye [m]
   float slack;   // [m]
   Edge ab, bc, ca;
-  SlabSpan planes;
+  PlaneSpan planes;
 };
 
 ScreenTriangle fetch_triangle(uint index) {
@@ -58,7 +59,7 @@ ScreenTriangle fetch_triangle(uint index) {
   t.ab = make_edge(t.a, t.b);
   t.bc = make_edge(t.b, t.c);
   t.ca = make_edge(t.c, t.a);
-  t.planes = slabs_of_triangle(space, t.a.xy, t.b.xy, t.c.xy, t.slack, k_theta_count, 1u);
+  t.planes = planes_of_triangle(space, t.a.xy, t.b.xy, t.c.xy, t.slack, k_theta_count);
   return t;
 }
 
@@ -89,10 +90,9 @@ vec2 alpha_bounds(ScreenTriangle t, float cosine, float sine) {
 
 // Flips a bit for each row of the triangle's `index`th plane whose view ray crosses it.
 void flip_in_plane(ScreenTriangle t, uint index) {
-  uint j = index < t.planes.count ? t.planes.first + index : t.planes.wrapped_first + (index - t.planes.count);
-  float theta = theta_centre(space, j);
-  float cosine = cos(theta);
-  float sine = sin(theta);
+  uint j = plane_at(t.planes, index);
+  float cosine = texelFetch(planes, int(j)).x;
+  float sine = texelFetch(planes, int(j)).y;
   vec2 bounds = alpha_bounds(t, cosine, sine);
   uint first = alpha_cell(space, bounds.x - space.alpha_step, k_alpha_count);
   uint end = bounds.x > bounds.y ? 0u : alpha_cell(space, bounds.y + space.alpha_step, k_alpha_count) + 1u;

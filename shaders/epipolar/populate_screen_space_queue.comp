@@ -10,9 +10,9 @@ void main() {
   uint at = gl_WorkGroupID.y * k_row + gl_WorkGroupID.x;
   if (at >= (k_from_back != 0u ? most_count : many_count)) return;
   ScreenTriangle t = fetch_triangle(queue[k_from_back != 0u ? triangle_count - 1u - at : at]);
-  uint planes = t.planes.count + t.planes.wrapped_count;
+  uint count = plane_count(t.planes);
   uint stride = 64u * gl_NumWorkGroups.z;
-  for (uint index = gl_WorkGroupID.z * 64u + gl_LocalInvocationID.x; index < planes; index += stride) {
+  for (uint index = gl_WorkGroupID.z * 64u + gl_LocalInvocationID.x; index < count; index += stride) {
     flip_in_plane(t, index);
   }
 }

@@ -5,6 +5,7 @@
 #include "epipolar/grid.glsl"
 #include "epipolar/resolution.glsl"
 #include "epipolar/phi_range.glsl"
+#include "epipolar/planes.glsl"
 
 // For each light ray (θ_j, φ_k), the nearest occluder of the shadow map (section 4.1.3).
 layout(local_size_x = 16, local_size_y = 4) in;
@@ -23,8 +24,8 @@ void main() {
   float cos_phi = cos(phi);
   uint end = min((gl_GlobalInvocationID.y + 1u) * k_planes, k_theta_count);
   for (uint j = gl_GlobalInvocationID.y * k_planes; j < end; ++j) {
-    float theta = theta_centre(space, j);
-    vec3 outward = cos(theta) * space.u + sin(theta) * space.f;
+    vec2 plane = texelFetch(planes, int(j)).xy;
+    vec3 outward = plane.x * space.u + plane.y * space.f;
     CubePoint point = cube_point(sin_phi * outward - cos_phi * space.axis);
     float depth = texelFetch(shadow_map, ivec3(cube_texel(point.uv, view.shadow_map_size), point.face), 0).r;
     float r = view.light_near / (max(depth, 1e-37) * point.depth);  // along the unit light ray

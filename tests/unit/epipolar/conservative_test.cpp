@@ -44,14 +44,23 @@ class Voxels {
     const auto relative = [&](std::size_t i) { return glm::vec3(corners[i] - eye_); };
     const shaders::VoxelTriangle triangle = shaders::voxel_triangle(
         space_, relative(0), relative(1), relative(2), static_cast<std::uint32_t>(n_.theta));
-    for (std::uint32_t index = 0; index < triangle.slabs.count + triangle.slabs.wrapped_count; ++index) {
-      const shaders::SlabPart part = shaders::part_in_slab(space_, cells_, triangle, index);
-      glm::vec2 from = shaders::boundary_ray(cells_, part.first_ray);
-      for (std::uint32_t k = part.first_ray; k < part.end_ray; ++k) {
-        const glm::vec2 to = shaders::boundary_ray(cells_, k + 1);
-        const std::uint32_t first = shaders::first_touched_cell(space_, part, from, to, alpha_count);
-        if (first < alpha_count) note(part.plane, k, first);
-        from = to;
+    for (std::uint32_t index = 0; index < shaders::plane_count(triangle.planes); ++index) {
+      const std::uint32_t plane = shaders::plane_at(triangle.planes, index);
+      const float border = shaders::theta_of_plane(space_, static_cast<float>(plane));
+      const std::uint32_t slabs = shaders::slabs_per_plane(space_);
+      const float step = (shaders::theta_of_plane(space_, static_cast<float>(plane + 1)) - border) /
+                         static_cast<float>(slabs);
+      for (std::uint32_t slab = 0; slab < slabs; ++slab) {
+        const float from_theta = border + static_cast<float>(slab) * step;
+        const shaders::SlabPart part =
+            shaders::part_in_slab(space_, cells_, triangle, from_theta, from_theta + step);
+        glm::vec2 from = shaders::boundary_ray(cells_, part.first_ray);
+        for (std::uint32_t k = part.first_ray; k < part.end_ray; ++k) {
+          const glm::vec2 to = shaders::boundary_ray(cells_, k + 1);
+          const std::uint32_t first = shaders::first_touched_cell(space_, part, from, to, alpha_count);
+          if (first < alpha_count) note(plane, k, first);
+          from = to;
+        }
       }
     }
   }

@@ -1,0 +1,16 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "epipolar/grid.glsl"
+#include "epipolar/resolution.glsl"
+
+// The table of shaders/epipolar/planes.glsl.
+layout(local_size_x = 64) in;
+layout(std140, binding = 1) uniform EpipolarUniform { EpipolarBlock space; };
+layout(std430, binding = 9) writeonly buffer Planes { vec4 planes[]; };
+
+void main() {
+  uint j = gl_GlobalInvocationID.x;
+  if (j >= k_theta_count) return;
+  float theta = theta_centre(space, j);
+  planes[j] = vec4(cos(theta), sin(theta), theta_of_plane(space, float(j)), theta_of_plane(space, float(j + 1u)));
+}
