@@ -26,10 +26,10 @@ install_packages() {
 # build PRESET TARGET: configures once, builds what changed, and says so only where there is something to do.
 build() {
   [ -f "build/$1/build.ninja" ] || { echo "Configuring build/$1" >&2; cmake --preset "$1" >/dev/null; }
-  local plan
-  plan=$(ninja -C "build/$1" -n "$2")
-  if [[ $plan != *'no work to do'* ]]; then
-    echo "Building build/$1" >&2
-    ninja -C "build/$1" "$2" | grep -vE '^(\[|ninja: Entering)' >&2 || [ "${PIPESTATUS[0]}" -eq 0 ]
-  fi
+  # Progress lines become one, and there is none where nothing is built.
+  ninja -C "build/$1" "$2" 2>&1 | awk -v preset="build/$1" '
+    /^\[/ { if (!/Re-(checking|running)/ && !said++) print "Building " preset; next }
+    /^ninja: (Entering|no work)/ || /^-- / { next }
+    { print }' >&2
+  [ "${PIPESTATUS[0]}" -eq 0 ]
 }

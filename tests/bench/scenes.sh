@@ -1,9 +1,13 @@
 #!/usr/bin/env bash
-# The figures of README.md and docs/figures.md: `tests/bench/scenes.sh accuracy|speed|curves [OUT]`.
+# The figures of README.md and docs/figures.md: `tests/bench/scenes.sh accuracy|speed|curves|cost|leaks|causes [OUT]`.
+# The paper's Tables 2 to 4 and the bandwidth: build/release/tests/bench/airlight_tables, after ./test.
 #
 # accuracy  512×512 pixels, the default grid, against the converged reference
 # speed     1024×1024 pixels, a shadow cube of 1024², against 512 shadow rays a pixel
 # curves    the error as each count of the grid doubles, the others at their defaults
+# cost      every population × integral × ranges, 1024×1024 pixels: time, error and stages (the paper's Table 1)
+# leaks     the three populations on closed and open models, 512×512 pixels
+# causes    the error of a fine grid, and what it becomes as one thing at a time is at its default
 # The models are not part of the project: AIRLIGHT_SHARED is the folder that holds scenes/ (default ../shared).
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -50,8 +54,47 @@ case ${1:-} in
     compare window --size 512x512 --reference-samples 1024 -o "$out/curves_window" --volume "$grids" --frames 1 --quiet
     compare sponza --size 512x512 --reference-samples 1024 -o "$out/curves_sponza" --volume "$grids" --frames 1 --quiet
     ;;
+  cost)
+    volumes=
+    for populate in shadow-map conservative screen-space; do
+      for integral in table factored riemann; do
+        for ranges in frame alpha-phi full; do
+          volumes+=${volumes:+,}vsv:populate=$populate:integral=$integral:ranges=$ranges
+        done
+      done
+    done
+    volumes+=,vsv:theta-cells=equal:phi-cells=equal:scan=multi-pass:ranges=alpha-phi:integral=riemann # all as in the paper
+    for scene in window fence sponza maple; do
+      compare "$scene" --size 1024x1024 --shadow-map 2048 --reference-samples 256 -o "$out/cost_$scene" --frames 2 \
+        --volume "$volumes" --quiet
+    done
+    ;;
+  leaks)
+    volumes=vsv,vsv:populate=conservative,vsv:populate=screen-space
+    volumes+=,vsv:populate=screen-space:alpha=2048,vsv:populate=conservative:alpha=1024:theta=4096:phi=1024
+    bunny="--sigma-s 0.3 --intensity 5 --eye 0.3,1.2,3.2 --target 0,0.8,0 --fov 45 --light-position=-0.7,1.7,-1.2"
+    view[bunny_closed]="$scenes/bunny_closed_144k.glb $bunny"
+    view[bunny_holes]="$scenes/bunny_holes_69k.glb $bunny"
+    view[lucy]="$scenes/lucy_100k.glb --sigma-s 0.3 --intensity 5 --eye 0.7,0.4,2.6 --target 0.7,0.2,0 --fov 50
+      --light-position=0.45,0.9,-0.5"
+    view[toroid]=toroid
+    view[toroid_hole]=assets/toroid_hole.toml
+    for scene in toroid toroid_hole bunny_closed lucy bunny_holes sponza; do
+      compare "$scene" --size 512x512 --shadow-map 2048 --reference-samples 512 -o "$out/leaks_$scene" --frames 1 \
+        --volume "$volumes" --quiet
+    done
+    ;;
+  causes)
+    fine=vsv:alpha=1024:theta=8192:phi=1024
+    for scene in window fence sponza maple; do
+      compare "$scene" --size 512x512 --shadow-map 4096 --reference-samples 1024 -o "$out/causes_$scene" --frames 1 --quiet \
+        --volume "$fine,vsv:alpha=512:theta=8192:phi=1024,vsv:alpha=1024:theta=2048:phi=1024,vsv:alpha=1024:theta=8192:phi=512,$fine:integral=riemann,$fine:integral=factored"
+      compare "$scene" --size 512x512 --shadow-map 2048 --reference-samples 1024 -o "$out/causes_shadow_map_$scene" --frames 1 \
+        --volume "$fine" --quiet
+    done
+    ;;
   *)
-    echo "usage: tests/bench/scenes.sh accuracy|speed|curves [OUT]" >&2
+    echo "usage: tests/bench/scenes.sh accuracy|speed|curves|cost|leaks|causes [OUT]" >&2
     exit 2
     ;;
 esac

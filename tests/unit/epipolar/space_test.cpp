@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/scene.h"
 #include "support/random.h"
 
 namespace airlight::epipolar {
@@ -215,6 +216,86 @@ TEST(EpipolarBlock, KeepsItsAxesFarFromTheOrigin) {
   EXPECT_EQ(a.axis, b.axis);
   EXPECT_EQ(a.distance, b.distance);
   EXPECT_EQ(a.alpha_min, b.alpha_min);
+}
+
+double theta_of_ray(const Axes& axes, glm::dvec3 ray) {
+  return std::atan2(glm::dot(ray, axes.f), glm::dot(ray, axes.u));
+}
+
+TEST(ThetaRange, HoldsEveryRayAndTouchesSome) {
+  tests::Random random(20);
+  int full = 0, partial = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    scene::View view;
+    view.camera.target = random.direction();
+    view.camera.vertical_fov_degrees = random.uniform(20, 100);
+    view.size = {80, 60};
+    view.light.position = 3.0 * random.direction();
+    const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
+    const Axes axes = make_axes(glm::normalize(view.light.position));
+    const Range range = theta_range(camera, axes);
+    const double middle = 0.5 * (range.lower + range.upper), half = 0.5 * (range.upper - range.lower);
+    double farthest = 0.0;
+    for (int i = 0; i <= 40; ++i) {
+      for (int j = 0; j <= 40; ++j) {
+        const glm::dvec3 ray = camera.forward + (i / 20.0 - 1) * camera.half_width * camera.right +
+                               (j / 20.0 - 1) * camera.half_height * camera.up;
+        const double from_middle = std::remainder(theta_of_ray(axes, ray) - middle, 2 * std::numbers::pi);
+        EXPECT_LE(std::abs(from_middle), half + 1e-9);
+        farthest = std::max(farthest, std::abs(from_middle));
+      }
+    }
+    const bool is_full = half > std::numbers::pi - 1e-9;
+    ++(is_full ? full : partial);
+    if (!is_full) {
+      EXPECT_NEAR(farthest, half, 1e-9);
+      EXPECT_LT(half, 0.5 * std::numbers::pi + 1e-9);
+    }
+  }
+  EXPECT_GT(full, 20);
+  EXPECT_GT(partial, 100);
+}
+
+TEST(PixelExact, RowsAreNowhereMoreThanAPixelApart) {
+  tests::Random random(21);
+  for (int trial = 0; trial < 60; ++trial) {
+    scene::View view;
+    view.camera.target = {0, 0, -1};
+    view.camera.vertical_fov_degrees = random.uniform(20, 90);
+    view.size = {160, 120};
+    const double spread = trial % 2 == 0 ? 0.5 : 3.0;  // in view, or often not
+    view.light.position = {random.uniform(-spread, spread), random.uniform(-spread, spread), -2.0};
+    const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
+    const Axes axes = make_axes(glm::normalize(view.light.position));
+    for (const ThetaCells cells : {ThetaCells::fitted, ThetaCells::equal}) {
+      const Resolution n = pixel_exact(view, Ranges::frame, cells);
+      const shaders::EpipolarBlock space = epipolar_block(view, n, Ranges::frame, cells);
+      double most_alpha = 0.0, most_theta = 0.0;
+      for (int sample = 0; sample < 2000; ++sample) {
+        // The rays of two neighbouring pixels, in either direction.
+        const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
+        const auto ray = [&](double dx, double dy) {
+          return glm::normalize(camera.forward + (x + dx) * camera.half_width * camera.right +
+                                (y + dy) * camera.half_height * camera.up);
+        };
+        const glm::dvec3 a = ray(0, 0);
+        // One row to the next on the sphere, over what a pixel spans there at least.
+        const double pixel =
+            std::min(glm::length(ray(2.0 / view.size.x, 0) - a), glm::length(ray(0, 2.0 / view.size.y) - a));
+        const double from_middle = std::remainder(
+            theta_of_ray(axes, a) - static_cast<double>(space.theta_middle), 2 * std::numbers::pi);
+        const double plane = static_cast<double>(space.theta_step) /
+                             (1 + static_cast<double>(space.theta_growth) * std::cos(from_middle));
+        most_theta = std::max(most_theta, glm::length(glm::cross(axes.axis, a)) * plane / pixel);
+        most_alpha = std::max(most_alpha, static_cast<double>(space.alpha_step) / pixel);
+      }
+      // 1.5 %: the border is sampled in 256 steps of θ, and a pixel is measured over its own width.
+      EXPECT_LT(most_theta, 1.015);
+      EXPECT_LT(most_alpha, 1.015);
+      EXPECT_GT(most_theta, 0.5);
+      EXPECT_GT(most_alpha, 0.5);
+    }
+  }
 }
 
 }  // namespace
