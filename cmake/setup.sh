@@ -28,8 +28,9 @@ build() {
   [ -f "build/$1/build.ninja" ] || { echo "Configuring build/$1" >&2; cmake --preset "$1" >/dev/null; }
   # Progress lines become one, and there is none where nothing is built.
   ninja -C "build/$1" "$2" 2>&1 | awk -v preset="build/$1" '
-    /^\[/ { if (!/Re-(checking|running)/ && !said++) print "Building " preset; next }
-    /^ninja: (Entering|no work)/ || /^-- / { next }
+    /^\[/ { reconfigures = /Re-(checking|running)/; if (!reconfigures && !said++) print "Building " preset; next }
+    /^CMake Error/ { reconfigures = 0 }
+    reconfigures || /^ninja: (Entering|no work)/ { next }
     { print }' >&2
   [ "${PIPESTATUS[0]}" -eq 0 ]
 }

@@ -39,13 +39,14 @@ void validate(const Resolution& resolution) {
   const auto require = [](bool good, const char* option, int value, const char* rule) {
     if (!good) throw Error(ExitCode::usage, option, fmt::format("{} is not {}", value, rule));
   };
-  // Indices are counted in single-precision floats on their way to a cell.
-  require(resolution.alpha >= 1 && resolution.alpha <= 1 << 20, "--alpha", resolution.alpha,
-          "between 1 and 1048576");
-  require(resolution.theta >= 1 && resolution.theta <= 1 << 20, "--theta", resolution.theta,
-          "between 1 and 1048576");
-  require(resolution.phi >= 128 && resolution.phi % 128 == 0 && resolution.phi <= 1 << 20, "--phi",
-          resolution.phi, "a multiple of 128 between 128 and 1048576");
+  // Every driver dispatches 65535 groups along an axis, and shaders/epipolar/ has groups of two or more.
+  constexpr int k_largest_count = 1 << 17;
+  require(resolution.alpha >= 1 && resolution.alpha <= k_largest_count, "--alpha", resolution.alpha,
+          "between 1 and 131072");
+  require(resolution.theta >= 1 && resolution.theta <= k_largest_count, "--theta", resolution.theta,
+          "between 1 and 131072");
+  require(resolution.phi >= 128 && resolution.phi % 128 == 0 && resolution.phi <= k_largest_count, "--phi",
+          resolution.phi, "a multiple of 128 between 128 and 131072");
 }
 
 std::array<gpu::Constant, 3> resolution_constants(const Resolution& resolution) {

@@ -1,5 +1,6 @@
 #include "epipolar/triangle_queue.h"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace airlight::epipolar {
@@ -26,14 +27,19 @@ TriangleQueue::TriangleQueue(const Resolution& resolution, std::span<const std::
 
 void TriangleQueue::run(std::uint32_t first, std::uint32_t count) {
   constexpr std::uint32_t k_row = 256, k_groups_of_most = 16;
-  const auto bytes = static_cast<std::int64_t>(sizeof(QueueHead) + 4 * std::size_t{count});
+  constexpr std::uint32_t k_at_once = 1 << 21;  // 32768 groups; every driver dispatches 65535
+  const std::uint32_t longest = std::min(count, k_at_once);
+  const auto bytes = static_cast<std::int64_t>(sizeof(QueueHead) + 4 * std::size_t{longest});
   if (queue_.bytes() < bytes) queue_ = gpu::Buffer(bytes);
-  const QueueHead head = {{k_row, 0, 1}, 0, {k_row, 0, k_groups_of_most}, 0, first, count};
-  queue_.write(&head, sizeof head);
   queue_.bind_storage(8);
-  few_.dispatch({count, 1, 1}, {64, 1, 1});
-  many_.dispatch_indirect(queue_, offsetof(QueueHead, many_groups));
-  most_.dispatch_indirect(queue_, offsetof(QueueHead, most_groups));
+  for (std::uint32_t done = 0; done < count; done += k_at_once) {
+    const std::uint32_t part = std::min(count - done, k_at_once);
+    const QueueHead head = {{k_row, 0, 1}, 0, {k_row, 0, k_groups_of_most}, 0, first + done, part};
+    queue_.write(&head, sizeof head);
+    few_.dispatch({part, 1, 1}, {64, 1, 1});
+    many_.dispatch_indirect(queue_, offsetof(QueueHead, many_groups));
+    most_.dispatch_indirect(queue_, offsetof(QueueHead, most_groups));
+  }
 }
 
 }  // namespace airlight::epipolar

@@ -13,7 +13,7 @@ class TriangleQueue {
   TriangleQueue(const Resolution& resolution, std::span<const std::uint32_t> few,
                 std::span<const std::uint32_t> queue);
 
-  /// Triangles `first` to `first` + `count` − 1 of the bound ones.
+  /// Triangles `first` to `first` + `count` − 1 of the bound ones, some two million at a time.
   void run(std::uint32_t first, std::uint32_t count);
 
  private:

@@ -43,7 +43,7 @@ case ${1:-} in
   speed)
     for scene in window sponza maple; do
       compare "$scene" --size 1024x1024 --shadow-map 1024 --reference-samples 128 -o "$out/speed_$scene" \
-        --volume "vsv,vsv:scan=fused,vsv:integral=riemann,$march" --quiet
+        --volume "vsv,vsv:scan=column,vsv:integral=riemann,$march" --quiet
     done
     ;;
   curves)

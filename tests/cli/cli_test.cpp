@@ -285,7 +285,7 @@ TEST_F(Driver, ImageOverTheLimitNamesIt) {
 
 TEST_F(Driver, GridOverTheLimitNamesIt) {
   const Result result =
-      small({"compare", "cornell", "-o", "out", "--alpha", "1048576", "--theta", "1048576"});
+      small({"compare", "cornell", "-o", "out", "--alpha", "131072", "--theta", "131072"});
   expect_one_line_error(result, 4);
   EXPECT_THAT(result.err, HasSubstr("GL_MAX_TEXTURE_BUFFER_SIZE"));
 }

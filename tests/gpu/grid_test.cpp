@@ -28,9 +28,9 @@ TEST(Grid, OverTheDriversLimitIsAnErrorThatNamesIt) {
   const std::int64_t limit = context.limits().max_texel_buffer_texels;
   // The smallest power of two of planes that is over the limit.
   int theta = 1;
-  while (std::int64_t{1} * (1 << 20) * theta <= limit && theta < 1 << 20) theta *= 2;
+  while (std::int64_t{4} * (1 << 17) * theta <= limit && theta < 1 << 17) theta *= 2;
   try {
-    const Grid grid(context, {1 << 20, theta, 128});
+    const Grid grid(context, {1 << 17, theta, 512});
     FAIL() << "the driver takes any grid";
   } catch (const scene::Error& error) {
     EXPECT_EQ(error.exit_code, scene::ExitCode::driver);
@@ -44,9 +44,9 @@ TEST(Grid, LightRaysOverTheDriversLimitAreAnErrorThatNamesIt) {
   gpu::Context& context = tests::gpu_context();
   const std::int64_t limit = context.limits().max_storage_block_bytes;
   int theta = 1;
-  while (std::int64_t{4} * (1 << 20) * theta <= limit && theta < 1 << 20) theta *= 2;
+  while (std::int64_t{4} * (1 << 17) * theta <= limit && theta < 1 << 17) theta *= 2;
   try {
-    const Grid grid(context, {1, theta, 1 << 20});
+    const Grid grid(context, {1, theta, 1 << 17});
     FAIL() << "the driver takes any number of light rays";
   } catch (const scene::Error& error) {
     EXPECT_EQ(error.exit_code, scene::ExitCode::driver);
@@ -91,7 +91,7 @@ TEST(Grid, LargerThanOneStorageBufferIsFilledWindowByWindow) {
 TEST(Grid, RefusesCountsThatCannotBe) {
   for (const Resolution& bad :
        {Resolution{0, 8, 128}, Resolution{8, 0, 128}, Resolution{8, 8, 0}, Resolution{8, 8, 100},
-        Resolution{8, 8, 192}, Resolution{-1, 8, 128}, Resolution{8, 1 << 21, 128}}) {
+        Resolution{8, 8, 192}, Resolution{-1, 8, 128}, Resolution{8, 1 << 18, 128}}) {
     try {
       validate(bad);
       ADD_FAILURE() << bad.alpha << "x" << bad.theta << "x" << bad.phi;
