@@ -235,7 +235,8 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{{"--phase", "mie"}, "unknown"}, Misuse{{"--rayleigh-weight", "0.5"}, "hoffman-preetham"},
         Misuse{{"--volume", "froxel"}, "reference-march"}, Misuse{{"--surface", "psv"}, "shadow-map, vsv"},
         Misuse{{"--volume", "vsv,none"}, "one method"}, Misuse{{"--volume", ""}, "--volume"},
-        Misuse{{"--volume", "vsv:integral=sum"}, "riemann"}, Misuse{{"--volume", "vsv:shade=1"}, "integral"}));
+        Misuse{{"--volume", "vsv:integral=sum"}, "riemann"},
+        Misuse{{"--volume", "vsv:shade=1"}, "integral"}));
 
 using BadFile = CommandLine;
 
@@ -284,8 +285,7 @@ TEST_F(Driver, ImageOverTheLimitNamesIt) {
 }
 
 TEST_F(Driver, GridOverTheLimitNamesIt) {
-  const Result result =
-      small({"compare", "cornell", "-o", "out", "--alpha", "131072", "--theta", "131072"});
+  const Result result = small({"compare", "cornell", "-o", "out", "--alpha", "131072", "--theta", "131072"});
   expect_one_line_error(result, 4);
   EXPECT_THAT(result.err, HasSubstr("GL_MAX_TEXTURE_BUFFER_SIZE"));
 }
@@ -643,7 +643,8 @@ TEST_F(Compare, WritesEveryImageAndTheReport) {
 }
 
 TEST_F(Compare, AutomaticCountsAreAPixelApart) {
-  const Json small_image = compare({"--alpha", "auto", "--theta", "auto", "--phi", "auto", "--volume", "vsv"});
+  const Json small_image =
+      compare({"--alpha", "auto", "--theta", "auto", "--phi", "auto", "--volume", "vsv"});
   const Json settings = small_image["runs"][0]["settings"];
   EXPECT_EQ(settings["phi"], 512);
   EXPECT_GT(settings["theta"].get<int>(), 3 * settings["alpha"].get<int>());
@@ -660,8 +661,9 @@ TEST_F(Compare, SolidsOfOpenPartsAreWarnedOf) {
   EXPECT_THAT(open.err, HasSubstr("1 of 1 connected parts are open: 4 edges with one triangle"));
   const Json results = Json::parse(read_text(file("out/results.json")));
   EXPECT_THAT(results.at("scene").at("warnings").dump(), HasSubstr("4 edges with one triangle"));
-  EXPECT_EQ(small({"compare", "cornell", "-o", "out", "--populate", "screen-space"}).err.find("parts are open"),
-            std::string::npos);
+  EXPECT_EQ(
+      small({"compare", "cornell", "-o", "out", "--populate", "screen-space"}).err.find("parts are open"),
+      std::string::npos);
   EXPECT_EQ(small({"compare", "half-space", "-o", "out"}).err.find("parts are open"), std::string::npos);
 }
 
