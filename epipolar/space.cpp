@@ -83,8 +83,7 @@ namespace {
 /// The planes of a frame.
 struct ThetaSpacing {
   double middle, half;
-  double growth;       ///< see EpipolarBlock
-  double pixel_exact;  ///< how many planes are nowhere more than a pixel apart
+  double growth;  ///< see EpipolarBlock
 };
 
 /// How far apart, in pixels, two planes a radian apart are on the image's border, the farthest that their
@@ -112,6 +111,10 @@ std::vector<double> reach_of_planes(const scene::CameraFrame& camera, glm::ivec2
   return reach;
 }
 
+double angle_of_bin(std::size_t bin, std::size_t bins) {
+  return 2.0 * std::numbers::pi * (static_cast<double>(bin) + 0.5) / static_cast<double>(bins);
+}
+
 /// Edges of shadow are displaced by up to half the distance of planes, so the squared error of a pixel is
 /// proportional to it, and a plane's to (reach)³ / density over its pixels. Of densities 1 + g cos(θ − θ_m)
 /// the one with the least sum is taken.
@@ -120,35 +123,31 @@ ThetaSpacing theta_spacing(const scene::View& view, const scene::CameraFrame& ca
   using std::numbers::pi;
   const Range theta = ranges == Ranges::frame ? theta_range(camera, axes) : Range{-pi, pi};
   ThetaSpacing spacing{std::remainder(0.5 * (theta.lower + theta.upper), 2.0 * pi),
-                       0.5 * (theta.upper - theta.lower), 0.0, 1.0};
+                       0.5 * (theta.upper - theta.lower), 0.0};
+  if (theta_cells == ThetaCells::equal || ranges != Ranges::frame || spacing.half <= pi - 1e-9)
+    return spacing;
+
   const std::vector<double> reach = reach_of_planes(camera, view.size, axes);
-  const auto angle = [&](std::size_t bin) {
-    return 2.0 * pi * (static_cast<double>(bin) + 0.5) / static_cast<double>(reach.size());
-  };
-  if (theta_cells == ThetaCells::fitted && ranges == Ranges::frame && spacing.half > pi - 1e-9) {
-    double along_u = 0.0, along_f = 0.0;
-    for (std::size_t bin = 0; bin < reach.size(); ++bin) {
-      along_u += std::pow(reach[bin], 1.5) * std::cos(angle(bin));
-      along_f += std::pow(reach[bin], 1.5) * std::sin(angle(bin));
-    }
-    spacing.middle = std::atan2(along_f, along_u);
-    double least = std::numeric_limits<double>::infinity();
-    constexpr int k_steps = 16;
-    for (int step = 0; step <= k_steps; ++step) {
-      const double growth = 0.8 * step / k_steps;
-      double sum = 0.0;
-      for (std::size_t bin = 0; bin < reach.size(); ++bin)
-        sum += std::pow(reach[bin], 3.0) / (1.0 + growth * std::cos(angle(bin) - spacing.middle));
-      if (sum < least) {
-        least = sum;
-        spacing.growth = growth;
-      }
-    }
-  }
+  double along_u = 0.0, along_f = 0.0;
   for (std::size_t bin = 0; bin < reach.size(); ++bin) {
-    spacing.pixel_exact =
-        std::max(spacing.pixel_exact, 2.0 * spacing.half * reach[bin] /
-                                          (1.0 + spacing.growth * std::cos(angle(bin) - spacing.middle)));
+    const double weight = std::pow(reach[bin], 1.5), angle = angle_of_bin(bin, reach.size());
+    along_u += weight * std::cos(angle);
+    along_f += weight * std::sin(angle);
+  }
+  spacing.middle = std::atan2(along_f, along_u);
+  double least = std::numeric_limits<double>::infinity();
+  constexpr int k_steps = 16;
+  for (int step = 0; step <= k_steps; ++step) {
+    const double growth = 0.8 * step / k_steps;
+    double sum = 0.0;
+    for (std::size_t bin = 0; bin < reach.size(); ++bin) {
+      sum += reach[bin] * reach[bin] * reach[bin] /
+             (1.0 + growth * std::cos(angle_of_bin(bin, reach.size()) - spacing.middle));
+    }
+    if (sum < least) {
+      least = sum;
+      spacing.growth = growth;
+    }
   }
   return spacing;
 }
@@ -191,8 +190,14 @@ Resolution pixel_exact(const scene::View& view, Ranges ranges, ThetaCells theta_
   const double least_pixel = 2.0 * camera.half_height / view.size.y / corner;
   Resolution resolution;
   resolution.alpha = static_cast<int>(std::ceil((alpha.upper - alpha.lower) / least_pixel));
-  resolution.theta =
-      static_cast<int>(std::ceil(theta_spacing(view, camera, axes, ranges, theta_cells).pixel_exact));
+  const ThetaSpacing theta = theta_spacing(view, camera, axes, ranges, theta_cells);
+  const std::vector<double> reach = reach_of_planes(camera, view.size, axes);
+  double planes = 1.0;
+  for (std::size_t bin = 0; bin < reach.size(); ++bin) {
+    const double density = 1.0 + theta.growth * std::cos(angle_of_bin(bin, reach.size()) - theta.middle);
+    planes = std::max(planes, 2.0 * theta.half * reach[bin] / density);
+  }
+  resolution.theta = static_cast<int>(std::ceil(planes));
   return resolution;
 }
 

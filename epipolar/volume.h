@@ -1,7 +1,8 @@
 #pragma once
 
-#include <memory>
+#include <map>
 #include <optional>
+#include <string>
 
 #include "epipolar/fused_scan.h"
 #include "epipolar/grid.h"

@@ -5,6 +5,7 @@
 #include "epipolar/phi_range.glsl"
 #include "epipolar/planes.glsl"
 
+#define TRIANGLE VoxelTriangle
 #include "epipolar/triangle_queue.glsl"
 
 layout(std430, binding = 7) buffer FirstShadowed { uint first_shadowed[]; };

@@ -12,6 +12,7 @@
 #include "epipolar/window.glsl"
 #include "epipolar/phi_range.glsl"
 #include "epipolar/planes.glsl"
+#define TRIANGLE ScreenTriangle
 #include "epipolar/triangle_queue.glsl"
 
 layout(std430, binding = 9) buffer Flips { uint flips[]; };  // as the grid's window, by words
@@ -89,7 +90,7 @@ vec2 alpha_bounds(ScreenTriangle t, float cosine, float sine) {
 }
 
 // Flips a bit for each row of the triangle's `index`th plane whose view ray crosses it.
-void flip_in_plane(ScreenTriangle t, uint index) {
+void voxelize_in_plane(ScreenTriangle t, uint index) {
   uint j = plane_at(t.planes, index);
   float cosine = texelFetch(planes, int(j)).x;
   float sine = texelFetch(planes, int(j)).y;

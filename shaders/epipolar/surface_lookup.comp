@@ -5,6 +5,7 @@
 #include "epipolar/grid.glsl"
 #include "epipolar/resolution.glsl"
 #include "epipolar/phi_range.glsl"
+#include "epipolar/planes.glsl"
 
 // Is a pixel's surface lit? One bit of the shadow volume tells: that of the last voxel in front of the surface, on the light ray
 // that is nearest to the surface's point.
@@ -40,8 +41,8 @@ void main() {
   float phi = phi_of_cell(cells, k + (k_whole_voxels ? 1.0 : 0.5));
   float sin_phi = sin(phi);
   float cos_phi = cos(phi);
-  float theta = theta_centre(space, j);
-  vec3 outward = cos(theta) * space.u + sin(theta) * space.f;
+  vec2 plane_direction = texelFetch(planes, int(j)).xy;
+  vec3 outward = plane_direction.x * space.u + plane_direction.y * space.f;
   vec3 ray = sin_phi * outward - cos_phi * space.axis;
 
   // Where it, or a ray that the grid may have taken for it, first meets the surface's plane: there the surface's own shadow begins.

@@ -143,7 +143,8 @@ void print_counts(Bench& bench, const char* title, int epipolar::Resolution::*co
   print_line("scan: multi-pass", counts, sweep(Populate::shadow_map, Scan::multi_pass), "scan");
 }
 
-/// Runs `part` on half of the bytes on each of two threads, as llvmpipe would.
+/// Runs `part` on an equal share of the bytes on each of as many threads as there are cores, as llvmpipe
+/// does.
 double threads_ms(std::size_t bytes, const std::function<void(std::size_t, std::size_t)>& part) {
   return median_ms([&] {
     const std::size_t threads = std::max(1u, std::thread::hardware_concurrency());
