@@ -123,12 +123,12 @@ scene::Camera choose_camera(const Options& options, const scene::Scene& scene) {
   return camera;
 }
 
-scene::PointLight choose_light(const Options& options, const scene::Scene& scene) {
+scene::Light choose_light(const Options& options, const scene::Scene& scene) {
   const auto name = options.get("light"), position = options.get("light-position"),
              intensity = options.get("intensity");
   if (name && position) throw usage("--light", "--light-position contradicts it", "give one or the other");
 
-  scene::PointLight light;
+  scene::Light light;
   if (position) {
     if (!intensity)
       throw usage("--light-position", "it needs --intensity", "give both, as in --intensity 10 [W/sr]");
@@ -252,8 +252,10 @@ Subject make_subject(const Options& options) {
 
   Subject subject{load_scene(options), {}, exposure};
   if (!exposure) subject.exposure = subject.scene.exposure;
-  subject.view = {choose_camera(options, subject.scene), choose_light(options, subject.scene),
-                  choose_medium(options, subject.scene.medium), size};
+  subject.view = {choose_camera(options, subject.scene),
+                  {choose_light(options, subject.scene)},
+                  choose_medium(options, subject.scene.medium),
+                  size};
   if (const auto text = options.get("albedo"))
     scene::override_albedo(subject.scene.geometry, parse_albedo(*text));
   scene::validate(subject.view);

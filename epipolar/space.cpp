@@ -153,7 +153,7 @@ ThetaSpacing theta_spacing(const scene::View& view, const scene::CameraFrame& ca
 }
 
 Axes axes_of(const scene::View& view) {
-  return make_axes(glm::normalize(view.light.position - view.camera.eye));
+  return make_axes(glm::normalize(view.lights[0].position - view.camera.eye));
 }
 
 Range alpha_of_grid(const scene::CameraFrame& camera, const Axes& axes, Ranges ranges) {
@@ -170,7 +170,7 @@ shaders::EpipolarBlock epipolar_block(const scene::View& view, const Resolution&
   const ThetaSpacing theta = theta_spacing(view, camera, axes, ranges, theta_cells);
   shaders::EpipolarBlock block{};
   block.axis = glm::vec3(axes.axis);
-  block.distance = static_cast<float>(glm::distance(view.light.position, view.camera.eye));
+  block.distance = static_cast<float>(glm::distance(view.lights[0].position, view.camera.eye));
   block.u = glm::vec3(axes.u);
   block.f = glm::vec3(axes.f);
   block.alpha_min = static_cast<float>(alpha.lower);

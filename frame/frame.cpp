@@ -31,7 +31,7 @@ float near_depth(const SceneBuffers& scene, glm::dvec3 apex, double eye_light_di
 
 shaders::ViewBlock view_block(const SceneBuffers& scene, const scene::View& view,
                               const scene::CameraFrame& camera, int shadow_map_size) {
-  const glm::dvec3 to_light = view.light.position - camera.eye;
+  const glm::dvec3 to_light = view.lights[0].position - camera.eye;
   const double eye_light_distance = glm::length(to_light);
   const glm::vec3 eye_high(camera.eye);
   shaders::ViewBlock block{};
@@ -46,8 +46,8 @@ shaders::ViewBlock view_block(const SceneBuffers& scene, const scene::View& view
   block.image_height = static_cast<float>(view.size.y);
   block.eye_near = near_depth(scene, camera.eye, eye_light_distance);
   block.light = glm::vec3(to_light);
-  block.light_near = near_depth(scene, view.light.position, eye_light_distance);
-  block.intensity = view.light.intensity;
+  block.light_near = near_depth(scene, view.lights[0].position, eye_light_distance);
+  block.intensity = view.lights[0].intensity;
   block.shadow_map_size = static_cast<float>(shadow_map_size);
   block.sigma_t = view.medium.sigma_s + view.medium.sigma_a;
   return block;
@@ -125,7 +125,7 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
   const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
 
   // Make what this frame needs and the last one did not have.
-  load_light_texture(view.light.texture);
+  load_light_texture(view.lights[0].texture);
   if (!gbuffer_ || radiance_.size() != view.size) {
     const int limit = std::min(context_.limits().max_texture_size, context_.limits().max_viewport);
     if (std::max(view.size.x, view.size.y) > limit) {
@@ -149,7 +149,7 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
     gbuffer_->draw(scene_, camera);
   });
   if (needs_shadow_map) {
-    timer.time("shadow_map", [&] { shadow_map_->draw(scene_, view.light.position); });
+    timer.time("shadow_map", [&] { shadow_map_->draw(scene_, view.lights[0].position); });
   }
   const FrameInputs inputs{.context = context_,
                            .view = view,

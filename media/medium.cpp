@@ -12,7 +12,7 @@ shaders::MediumBlock medium_block(const scene::View& view) {
   block.sigma_s = view.medium.sigma_s;
   block.g = view.medium.g;
   block.sigma_t = view.medium.sigma_s + view.medium.sigma_a;
-  block.intensity = view.light.intensity;
+  block.intensity = view.lights[0].intensity;
   block.rayleigh_weight = view.medium.rayleigh_weight;
   return block;
 }

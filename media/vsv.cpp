@@ -66,7 +66,7 @@ void Vsv::load(const gpu::Context& context, const Variant& variant) {
   loaded_ = variant;
 }
 
-void Vsv::require_support(VsvIntegral integral, const scene::PointLight& light) {
+void Vsv::require_support(VsvIntegral integral, const scene::Light& light) {
   if (!light.texture || integral == VsvIntegral::riemann) return;
   throw scene::Error(scene::ExitCode::usage,
                      fmt::format("vsv:integral={}", integral == VsvIntegral::table ? "table" : "factored"),
@@ -74,7 +74,7 @@ void Vsv::require_support(VsvIntegral integral, const scene::PointLight& light) 
 }
 
 void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) {
-  require_support(integral_, inputs.view.light);
+  require_support(integral_, inputs.view.lights[0]);
   shaders::MediumBlock block = medium_block(inputs.view);
   const bool is_grey = block.sigma_t.x == block.sigma_t.y && block.sigma_t.y == block.sigma_t.z;
   const epipolar::Resolution& resolution = volume_.grid().resolution();

@@ -41,7 +41,7 @@ class Vsv : public frame::Airlight {
 
   /// @throws scene::Error (usage) for a light textured by direction, unless every sample is looked at: the
   /// table depends on α and φ alone, and such a light on θ too
-  static void require_support(VsvIntegral integral, const scene::PointLight& light);
+  static void require_support(VsvIntegral integral, const scene::Light& light);
 
   const epipolar::ShadowVolume& volume() const { return volume_; }
 

@@ -387,7 +387,7 @@ std::vector<SurfaceChoice> parse_surfaces(std::string_view list, const Settings&
 void fit(std::span<VolumeChoice> volumes, std::span<SurfaceChoice> surfaces, const scene::View& view,
          scene::Scene& scene) {
   for (const VolumeChoice& choice : volumes) {
-    if (has_grid(choice)) media::Vsv::require_support(choice.settings.integral, view.light);
+    if (has_grid(choice)) media::Vsv::require_support(choice.settings.integral, view.lights[0]);
   }
   const bool in_volumes = fit_grids(volumes, view), in_surfaces = fit_grids(surfaces, view);
   if (!in_volumes && !in_surfaces) return;

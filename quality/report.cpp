@@ -166,7 +166,7 @@ std::string report_html(const Comparison& comparison) {
   const Truth& truth = comparison.truth;
   const scene::View& view = comparison.view;
   const std::string light_texture =
-      view.light.texture ? fmt::format(", textured by {}", escape(view.light.texture->name())) : "";
+      view.lights[0].texture ? fmt::format(", textured by {}", escape(view.lights[0].texture->name())) : "";
   const std::string rayleigh_weight = view.medium.phase == scene::PhaseFunction::hoffman_preetham
                                           ? fmt::format(", rayleigh weight {}", view.medium.rayleigh_weight)
                                           : "";
@@ -191,7 +191,7 @@ std::string report_html(const Comparison& comparison) {
       "<dt>exposure</dt><dd>{} of the PNG images{}; the EXR images hold radiance</dd>\n</dl>\n",
       escape(comparison.scene), comparison.triangles, comparison.report.degenerate_triangles, view.size.x,
       view.size.y, text_of(view.camera.eye), text_of(view.camera.target), text_of(view.camera.up),
-      view.camera.vertical_fov_degrees, text_of(view.light.position), text_of(view.light.intensity),
+      view.camera.vertical_fov_degrees, text_of(view.lights[0].position), text_of(view.lights[0].intensity),
       light_texture, text_of(view.medium.sigma_s), text_of(view.medium.sigma_a),
       phase_name(view.medium.phase), view.medium.g, rayleigh_weight, escape(comparison.device.renderer),
       escape(comparison.device.version), comparison.cores, version(), truth.samples,

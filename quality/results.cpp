@@ -45,15 +45,15 @@ Json view_json(const scene::View& view) {
                  {"up", vector(camera.up)},
                  {"fov", camera.vertical_fov_degrees}}},
                {"light",
-                {{"name", view.light.name},
-                 {"position", vector(view.light.position)},
-                 {"intensity", vector(view.light.intensity)}}},
+                {{"name", view.lights[0].name},
+                 {"position", vector(view.lights[0].position)},
+                 {"intensity", vector(view.lights[0].intensity)}}},
                {"medium",
                 {{"sigma_s", vector(view.medium.sigma_s)},
                  {"sigma_a", vector(view.medium.sigma_a)},
                  {"phase", phase_name(view.medium.phase)},
                  {"g", single(view.medium.g)}}}};
-  if (view.light.texture) json["light"]["texture"] = view.light.texture->name();
+  if (view.lights[0].texture) json["light"]["texture"] = view.lights[0].texture->name();
   if (view.medium.phase == scene::PhaseFunction::hoffman_preetham)
     json["medium"]["rayleigh_weight"] = single(view.medium.rayleigh_weight);
   return json;
@@ -153,13 +153,13 @@ std::map<std::string, std::string> view_options(const scene::View& view) {
                                                 {"target", text_of(view.camera.target)},
                                                 {"up", text_of(view.camera.up)},
                                                 {"fov", fmt::format("{}", view.camera.vertical_fov_degrees)},
-                                                {"light-position", text_of(view.light.position)},
-                                                {"intensity", text_of(view.light.intensity)},
+                                                {"light-position", text_of(view.lights[0].position)},
+                                                {"intensity", text_of(view.lights[0].intensity)},
                                                 {"sigma-s", text_of(view.medium.sigma_s)},
                                                 {"sigma-a", text_of(view.medium.sigma_a)},
                                                 {"phase", phase_name(view.medium.phase)},
                                                 {"g", fmt::format("{}", view.medium.g)}};
-  if (view.light.texture) options["light-texture"] = view.light.texture->name();
+  if (view.lights[0].texture) options["light-texture"] = view.lights[0].texture->name();
   if (view.medium.phase == scene::PhaseFunction::hoffman_preetham)
     options["rayleigh-weight"] = fmt::format("{}", view.medium.rayleigh_weight);
   return options;

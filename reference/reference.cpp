@@ -17,21 +17,23 @@ ViewRay Reference::State::view_ray(int x, int y) const {
 }
 
 glm::dvec3 Reference::State::airlight_scale(const ViewRay& ray) const {
-  return glm::dvec3(view.medium.sigma_s) * glm::dvec3(view.light.intensity) / (ray.D * ray.sin_alpha);
+  return glm::dvec3(view.medium.sigma_s) * glm::dvec3(light.intensity) / (ray.D * ray.sin_alpha);
 }
 
-Reference::Reference(const scene::Geometry& geometry, const scene::View& view) {
+Reference::Reference(const scene::Geometry& geometry, const scene::View& view, std::size_t light_index) {
   scene::validate(view);
+  const scene::Light& light = view.lights.at(light_index);
   const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
   // The tangent size of a pixel at the image's centre stands for its angle.
   const double pixel = 2.0 * camera.half_height / view.size.y;
   state_.reset(new State{.view = view,
+                         .light = light,
                          .camera = camera,
-                         .visibility = Visibility(geometry, view.light.position, camera.eye),
-                         .eye = camera.eye - view.light.position,
+                         .visibility = Visibility(geometry, light.position, camera.eye),
+                         .eye = camera.eye - light.position,
                          .quarter_pixel = 0.25 * pixel,
                          .light_texture = {}});
-  if (view.light.texture) state_->light_texture.emplace(*state_->view.light.texture);
+  if (light.texture) state_->light_texture.emplace(*light.texture);
 }
 
 Reference::~Reference() = default;

@@ -35,7 +35,8 @@ using Progress = std::function<void(double fraction)>;  ///< called from the cal
 class Reference {
  public:
   /// Builds the acceleration structure. The geometry is copied.
-  Reference(const scene::Geometry& geometry, const scene::View& view);
+  /// @param light which of the view's lights: the others are out
+  Reference(const scene::Geometry& geometry, const scene::View& view, std::size_t light = 0);
   ~Reference();
   Reference(Reference&&) noexcept;
   Reference& operator=(Reference&&) noexcept;

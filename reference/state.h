@@ -13,6 +13,7 @@ namespace airlight::reference {
 /// What `Reference` keeps: the view, and the triangles around its light.
 struct Reference::State {
   scene::View view;
+  scene::Light light;
   scene::CameraFrame camera;
   Visibility visibility;
   glm::dvec3 eye;                            ///< relative to the light [m]

@@ -28,7 +28,7 @@ Scene make_cornell() {
   model.box({1.0, -k_wall, -k_out}, {k_out, 2.0 + k_wall, 1.0});  // right
 
   scene.cameras.push_back({"front", {0.0, 1.0, 4.2}, {0.0, 1.0, 0.0}, {0.0, 1.0, 0.0}, 38.0});
-  scene.lights.push_back({"ceiling", {0.0, 1.85, 0.0}, {1.0f, 0.86f, 0.68f}});
+  scene.lights.push_back(point_light("ceiling", {0.0, 1.85, 0.0}, {1.0f, 0.86f, 0.68f}));
   scene.medium.sigma_s = glm::vec3(0.25f);
   scene.exposure = 5.0f;
   return scene;
@@ -38,7 +38,7 @@ Scene make_empty() {
   Scene scene;
   scene.name = "empty";
   scene.cameras.push_back({"front", {0.0, 0.0, 5.0}, {0.4, 0.3, 0.0}, {0.0, 1.0, 0.0}, 45.0});
-  scene.lights.push_back({"lamp", {0.0, 0.0, 0.0}, glm::vec3(10.0f)});
+  scene.lights.push_back(point_light("lamp", {0.0, 0.0, 0.0}, glm::vec3(10.0f)));
   scene.medium.sigma_s = glm::vec3(0.1f);
   scene.exposure = 1.0f;
   return scene;
@@ -58,7 +58,7 @@ Scene make_half_space() {
   model.quad(a, b, c, d);
 
   scene.cameras.push_back({"below", {1.5, -1.0, 7.0}, {-0.6, -0.2, 0.0}, {0.0, 1.0, 0.0}, 50.0});
-  scene.lights.push_back({"lamp", {0.0, 2.0, 0.0}, glm::vec3(10.0f)});
+  scene.lights.push_back(point_light("lamp", {0.0, 2.0, 0.0}, glm::vec3(10.0f)));
   scene.medium.sigma_s = glm::vec3(0.1f);
   scene.exposure = 3.0f;
   return scene;
@@ -73,7 +73,7 @@ Scene make_sphere() {
   model.sphere(glm::dvec3(0.0), 1.0, 32);
 
   scene.cameras.push_back({"side", {1.0, -0.4, 9.0}, {0.8, -0.5, 0.0}, {0.0, 1.0, 0.0}, 45.0});
-  scene.lights.push_back({"lamp", {-2.2, 1.5, 0.4}, glm::vec3(10.0f)});
+  scene.lights.push_back(point_light("lamp", {-2.2, 1.5, 0.4}, glm::vec3(10.0f)));
   scene.medium.sigma_s = glm::vec3(0.1f);
   scene.exposure = 4.0f;
   return scene;

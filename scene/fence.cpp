@@ -97,7 +97,7 @@ Scene make_fence() {
   }
 
   scene.cameras.push_back({"road", {-2.2, 0.75, 3.0}, {0.35, 1.2, -0.2}, {0.0, 1.0, 0.0}, 52.0});
-  scene.lights.push_back({"lamp", {1.1, 1.7, -0.6}, glm::vec3(1.0f, 0.78f, 0.53f) * 14.0f});
+  scene.lights.push_back(point_light("lamp", {1.1, 1.7, -0.6}, glm::vec3(1.0f, 0.78f, 0.53f) * 14.0f));
   scene.medium.sigma_s = glm::vec3(0.12f);
   scene.exposure = 1.8f;
   return scene;

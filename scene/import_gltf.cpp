@@ -474,7 +474,7 @@ class Importer {
     count(source.range > 0.0, "ranges of lights", "light reaches without limit");
 
     const glm::dvec3 color = source.color.empty() ? glm::dvec3(1.0) : dvec3_of(source.color);
-    PointLight light;
+    Light light;
     light.name = name_of(source.name, node.name, "light", scene_.lights.size());
     light.position = glm::dvec3(world_from_node[3]);
     light.intensity = glm::vec3(color * source.intensity);

@@ -39,6 +39,15 @@ void check_coefficient(const std::string& where, glm::dvec3 value) {
     throw Error(ExitCode::bad_file, where, fmt::format("{} is not finite and non-negative", text_of(value)));
 }
 
+void validate(const Light& light, glm::dvec3 eye) {
+  const std::string where = light.name.empty() ? "light" : fmt::format("light '{}'", light.name);
+  check_point(ExitCode::bad_file, where + ", position", light.position);
+  check_coefficient(where + ", intensity", light.intensity);
+  if (glm::distance(light.position, eye) < k_shortest_distance)
+    throw Error(ExitCode::bad_file, where, "it is at the eye, where the airlight is infinite",
+                "move the light or the camera");
+}
+
 }  // namespace
 
 Box bounds(const Geometry& geometry) {
@@ -109,12 +118,8 @@ CameraFrame camera_frame(const Camera& camera, glm::ivec2 image_size) {
 void validate(const View& view) {
   camera_frame(view.camera, view.size);
 
-  const std::string light = view.light.name.empty() ? "light" : fmt::format("light '{}'", view.light.name);
-  check_point(ExitCode::bad_file, light + ", position", view.light.position);
-  check_coefficient(light + ", intensity", view.light.intensity);
-  if (glm::distance(view.light.position, view.camera.eye) < k_shortest_distance)
-    throw Error(ExitCode::bad_file, light, "it is at the eye, where the airlight is infinite",
-                "move the light or the camera");
+  if (view.lights.empty()) throw Error(ExitCode::bad_file, "view", "it has no light");
+  for (const Light& light : view.lights) validate(light, view.camera.eye);
 
   const Medium& medium = view.medium;
   check_coefficient("medium, sigma-s", medium.sigma_s);

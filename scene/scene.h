@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -69,14 +70,23 @@ CameraFrame camera_frame(const Camera& camera, glm::ivec2 image_size);
 
 class LightTexture;
 
-/// A light that radiates from one point: alike in all directions, or as its texture says.
-struct PointLight {
+/// What a light is; it says which of a light's fields mean something.
+enum class LightKind {
+  point,  ///< radiates from one point: alike in all directions, or as its texture says
+};
+
+struct Light {
   std::string name;
+  LightKind kind = LightKind::point;
   glm::dvec3 position{0.0};   ///< world space [m]
   glm::vec3 intensity{1.0f};  ///< radiant intensity, RGB [W/sr]; candela of a glTF file are read one to one
   /// Multiplies `intensity` by direction; nullptr for none.
   std::shared_ptr<const LightTexture> texture = nullptr;
 };
+
+inline Light point_light(std::string name, glm::dvec3 position, glm::vec3 intensity) {
+  return {.name = std::move(name), .position = position, .intensity = intensity};
+}
 
 /// `hoffman_preetham` mixes Rayleigh's function, of the air's molecules, with Henyey-Greenstein's, of haze.
 enum class PhaseFunction : std::uint32_t {
@@ -117,7 +127,7 @@ struct Scene {
   std::string name;
   Geometry geometry;
   std::vector<Camera> cameras;
-  std::vector<PointLight> lights;
+  std::vector<Light> lights;
   Medium medium;
   std::optional<float> exposure;  ///< of PNG previews: linear radiance is multiplied by it; automatic without
   ImportReport report;
@@ -126,15 +136,15 @@ struct Scene {
 /// What one image shows of a scene, all choices made. The geometry stays where it is.
 struct View {
   Camera camera;
-  PointLight light;
+  std::vector<Light> lights{Light{}};  ///< at least one; what they send adds up
   Medium medium;
   glm::ivec2 size{512, 512};  ///< pixels
 };
 
 /// Checks what every method relies on.
-/// @throws Error (bad_file) when the light coincides with the eye, or a value of the view is out of its
-/// domain (not finite, negative intensity or coefficient, |g| ≥ 1, a weight outside [0, 1]); (usage) as
-/// `camera_frame`.
+/// @throws Error (bad_file) when there is no light, one coincides with the eye, or a value of the view is out
+/// of its domain (not finite, negative intensity or coefficient, |g| ≥ 1, a weight outside [0, 1]); (usage)
+/// as `camera_frame`.
 void validate(const View& view);
 
 /// Gives every triangle the same reflectance.

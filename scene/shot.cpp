@@ -204,7 +204,7 @@ void choose_light(Table& table, Scene& scene) {
   if (position) {
     if (!intensity)
       throw table.error("position", "it needs intensity", "give both, as in intensity = 10 [W/sr]");
-    scene.lights.insert(scene.lights.begin(), {"shot", *position, *intensity});
+    scene.lights.insert(scene.lights.begin(), point_light("shot", *position, *intensity));
   } else if (name) {
     put_first(table, *name, scene.lights);
   } else if (intensity && scene.lights.empty()) {
@@ -276,7 +276,7 @@ Scene load_shot(const std::filesystem::path& file, std::optional<std::size_t> tr
     if (scene.lights.empty())
       camera_frame(scene.cameras[0], {1, 1});
     else
-      validate({scene.cameras[0], scene.lights[0], scene.medium, {1, 1}});
+      validate({scene.cameras[0], {scene.lights[0]}, scene.medium, {1, 1}});
   } catch (const Error& error) {
     throw file_error(file, "", error.what());
   }

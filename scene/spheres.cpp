@@ -62,7 +62,7 @@ Scene make_spheres(std::size_t triangles) {
   }
 
   scene.cameras.push_back({"side", {1.5, 1.0, 7.2}, {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 52.0});
-  scene.lights.push_back({"lamp", {0.0, 0.0, 0.0}, glm::vec3(1.0f, 0.8f, 0.55f) * 40.0f});
+  scene.lights.push_back(point_light("lamp", {0.0, 0.0, 0.0}, glm::vec3(1.0f, 0.8f, 0.55f) * 40.0f));
   scene.medium.sigma_s = glm::vec3(0.12f);
   scene.exposure = 1.5f;
   return scene;

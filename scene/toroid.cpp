@@ -154,7 +154,7 @@ Scene make_toroid(std::size_t triangles) {
   }
 
   scene.cameras.push_back({"above", {1.2, 4.9, 5.4}, {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 48.0});
-  scene.lights.push_back({"lamp", {0.0, -0.8, -0.2}, glm::vec3(1.0f, 0.77f, 0.5f) * 60.0f});
+  scene.lights.push_back(point_light("lamp", {0.0, -0.8, -0.2}, glm::vec3(1.0f, 0.77f, 0.5f) * 60.0f));
   scene.medium.sigma_s = {0.11f, 0.12f, 0.13f};
   scene.medium.phase = PhaseFunction::henyey_greenstein;
   scene.medium.g = 0.2f;

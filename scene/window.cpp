@@ -309,7 +309,7 @@ Scene make_window() {
   }
 
   scene.cameras.push_back({"nave", {-3.1, 2.5, 4.9}, {2.1, 3.5, -8.0}, {0.0, 1.0, 0.0}, 62.0});
-  scene.lights.push_back({"lamp", {-4.5, 13.0, -20.0}, glm::vec3(1.0f, 0.84f, 0.6f) * 52000.0f});
+  scene.lights.push_back(point_light("lamp", {-4.5, 13.0, -20.0}, glm::vec3(1.0f, 0.84f, 0.6f) * 52000.0f));
   scene.medium.sigma_s = glm::vec3(0.05f);
   scene.exposure = 1.0f;
   return scene;

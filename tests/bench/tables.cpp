@@ -53,7 +53,7 @@ class Bench {
     const scene::BuiltinScene* builtin = scene::find_builtin(name);
     if (!builtin) throw scene::Error(scene::ExitCode::usage, name, "there is no such built-in scene");
     scene_ = builtin->make({});
-    view_ = {scene_.cameras.at(0), scene_.lights.at(0), scene_.medium, {1024, 1024}};
+    view_ = {scene_.cameras.at(0), {scene_.lights.at(0)}, scene_.medium, {1024, 1024}};
   }
 
   std::size_t triangles() const { return scene_.geometry.triangles.size(); }

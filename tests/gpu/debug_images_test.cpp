@@ -84,7 +84,7 @@ TEST(DebugImages, CountTheShadowedSamplesOfEachPixel) {
     const scene::View view = view_of(builtin(scene), size);
     const scene::CameraFrame camera = scene::camera_frame(view.camera, size);
     const glm::dvec3 axis(debugged.space.axis), u(debugged.space.u), f(debugged.space.f);
-    const double distance = glm::distance(view.light.position, view.camera.eye);
+    const double distance = glm::distance(view.lights[0].position, view.camera.eye);
     int counted = 0, shadowed = 0;
     for (int pixel = 0; pixel < size.x * size.y; ++pixel) {
       const double x = (2.0 * (pixel % size.x + 0.5) / size.x - 1.0) * camera.half_width;

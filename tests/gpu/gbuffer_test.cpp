@@ -56,7 +56,7 @@ TEST(GBuffer, SeesTrianglesThatReachBehindTheEye) {
   view.camera.eye = {0.3, 1.0, 0.2};
   view.camera.target = {5, 0.9, 3};
   view.camera.vertical_fov_degrees = 70;
-  view.light.position = {2, 2, 2};
+  view.lights[0].position = {2, 2, 2};
   view.size = {97, 65};
   EXPECT_LE(differing_pixels(floor, view), 5u);
 }
@@ -68,7 +68,7 @@ TEST(GBuffer, FarFromTheOriginSeesTheSame) {
   scene::View view;
   view.camera.eye = glm::dvec3(offset) + glm::dvec3(2.1, 1.3, 4.7);
   view.camera.target = offset;
-  view.light.position = glm::dvec3(offset) + glm::dvec3(-3, 3, 3);
+  view.lights[0].position = glm::dvec3(offset) + glm::dvec3(-3, 3, 3);
   view.size = {96, 96};
   EXPECT_LE(differing_pixels(geometry, view), 5u);
 }

@@ -109,9 +109,9 @@ class BitsOf {
  public:
   BitsOf(const scene::Scene& scene, const scene::View& view, const Resolution& n, int shadow_map_size)
       : n_(n),
-        axes_(make_axes(glm::normalize(view.light.position - view.camera.eye))),
-        D_(glm::distance(view.light.position, view.camera.eye)),
-        exact_(scene.geometry, view.light.position, view.camera.eye) {
+        axes_(make_axes(glm::normalize(view.lights[0].position - view.camera.eye))),
+        D_(glm::distance(view.lights[0].position, view.camera.eye)),
+        exact_(scene.geometry, view.lights[0].position, view.camera.eye) {
     tests::look_into_frame(scene.geometry, view, shadow_map_size, [&](const frame::FrameInputs& inputs) {
       ShadowVolume volume(inputs.context, {.resolution = n, .ranges = Ranges::alpha_phi});
       tests::build(volume, inputs, k_growth);

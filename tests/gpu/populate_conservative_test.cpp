@@ -41,7 +41,7 @@ class Grids {
   std::pair<int, int> missed(int points) const {
     tests::Random random(7);
     const Resolution& n = k_resolution;
-    const glm::dvec3 eye = view_.camera.eye, to_light = view_.light.position - eye;
+    const glm::dvec3 eye = view_.camera.eye, to_light = view_.lights[0].position - eye;
     const double D = glm::length(to_light);
     const Axes axes = make_axes(to_light / D);
     int inside = 0, missed = 0;

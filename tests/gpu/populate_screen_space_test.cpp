@@ -26,7 +26,7 @@ scene::View make_view(glm::dvec3 eye, glm::dvec3 target, glm::dvec3 light) {
   scene::View view;
   view.camera.eye = eye;
   view.camera.target = target;
-  view.light.position = light;
+  view.lights[0].position = light;
   view.size = {48, 48};
   return view;
 }
@@ -73,7 +73,7 @@ bool bit(const std::vector<std::uint32_t>& words, int i, int j, int k) {
 
 /// The centre of a voxel; infinitely far where its view and light ray do not meet.
 glm::dvec3 centre(const Bits& bits, const scene::View& view, int i, int j, int k) {
-  const glm::dvec3 to_light = view.light.position - view.camera.eye;
+  const glm::dvec3 to_light = view.lights[0].position - view.camera.eye;
   const double D = glm::length(to_light);
   const Axes axes = make_axes(to_light / D);
   const double alpha =

@@ -96,7 +96,7 @@ TEST(Populate, BuildingTwiceGivesTheSameBits) {
 double largest_phi(const scene::View& view, const std::vector<float>& distance) {
   const glm::ivec2 size = view.size;
   const scene::CameraFrame camera = scene::camera_frame(view.camera, size);
-  const glm::dvec3 to_light = view.light.position - camera.eye;
+  const glm::dvec3 to_light = view.lights[0].position - camera.eye;
   const double D = glm::length(to_light), quarter = 0.5 * camera.half_height / size.y;
   double largest = 0.0;
   for (int y = 0; y < size.y; ++y) {
@@ -141,8 +141,8 @@ TEST_P(PhiRange, IsFoundInWhicheverPixelItIs) {
   const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
   for (int i = 0; i < 35; ++i) {
     const double x = (2 * ((i * 13) % 35) + 1) / 35.0 - 1, y = (2 * i + 1) / 35.0 - 1;
-    view.light.position = camera.eye + 0.9 * (camera.forward + x * camera.half_width * camera.right +
-                                              y * camera.half_height * camera.up);
+    view.lights[0].position = camera.eye + 0.9 * (camera.forward + x * camera.half_width * camera.right +
+                                                  y * camera.half_height * camera.up);
     expect_largest_phi(scene.geometry, view);
   }
 }

@@ -60,7 +60,7 @@ TEST(ShadowMapLookup, ALonePlaneIsLitWhollyAtAnySlope) {
   view.camera.target = {0, 0, 0};
   view.size = {64, 64};
   for (double height : {5.0, 0.5, 0.05}) {
-    view.light.position = {1, height, -1};
+    view.lights[0].position = {1, height, -1};
     const Wrong count = compare(plane, view, 512);
     EXPECT_EQ(count.wrong, 0u) << "of " << count.pixels << " with the light at " << height;
   }

@@ -43,7 +43,7 @@ TEST_P(ShadowMapOf, HoldsTheDistancesOfRaysThroughItsTexels) {
     shaders::ViewBlock view_block;
     glGetNamedBufferSubData(static_cast<GLuint>(block), 0, sizeof view_block, &view_block);
     // Rays from the light: what is the light elsewhere is here any other point.
-    const reference::Visibility exact(scene.geometry, view.camera.eye, view.light.position);
+    const reference::Visibility exact(scene.geometry, view.camera.eye, view.lights[0].position);
     std::size_t at = 0, hits = 0, wrong = 0;
     for (int face = 0; face < 6; ++face) {
       for (int y = 0; y < size; ++y) {

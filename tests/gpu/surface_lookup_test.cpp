@@ -86,14 +86,14 @@ TEST_P(SurfaceLookupOn, AFloorIsExactToOneCell) {
   view.camera = shadow->camera;
   const VolumeSettings settings = settings_of(populate);
 
-  const Axes axes = make_axes(glm::normalize(view.light.position - view.camera.eye));
+  const Axes axes = make_axes(glm::normalize(view.lights[0].position - view.camera.eye));
   const double theta_step = 2 * std::numbers::pi / settings.resolution.theta;
   const double phi_step = std::numbers::pi / settings.resolution.phi;
   int lit = 0, dark = 0, wrong = 0;
   for (const Seen& pixel : look(geometry, view, settings)) {
     if (std::abs(pixel.point.y - shadow->floor) > 1e-4) continue;  // on the occluder
     ++(pixel.is_lit ? lit : dark);
-    const glm::dvec3 from_light = pixel.point - view.light.position;
+    const glm::dvec3 from_light = pixel.point - view.lights[0].position;
     const double x = glm::dot(from_light, axes.u), y = glm::dot(from_light, axes.f);
     const double theta = std::atan2(y, x);
     const double phi = std::atan2(std::hypot(x, y), -glm::dot(from_light, axes.axis));
@@ -105,8 +105,8 @@ TEST_P(SurfaceLookupOn, AFloorIsExactToOneCell) {
         const double t = theta + a * theta_step, p = phi + b * phi_step;
         const glm::dvec3 ray =
             std::sin(p) * (std::cos(t) * axes.u + std::sin(t) * axes.f) - std::cos(p) * axes.axis;
-        const glm::dvec3 point = view.light.position + from_light.y / ray.y * ray;
-        is_near = is_near || shadow->is_lit(view.light.position, point) == pixel.is_lit;
+        const glm::dvec3 point = view.lights[0].position + from_light.y / ray.y * ray;
+        is_near = is_near || shadow->is_lit(view.lights[0].position, point) == pixel.is_lit;
       }
     }
     wrong += !is_near;
@@ -129,7 +129,7 @@ TEST_P(SurfaceLookupBy, ABodyIsLitWhereItFacesTheLight) {
   int lit = 0, dark = 0, wrong = 0;
   for (const Seen& pixel : look(scene.geometry, view, settings_of(GetParam()))) {
     const double cosine =
-        glm::dot(glm::normalize(pixel.point), glm::normalize(view.light.position - pixel.point));
+        glm::dot(glm::normalize(pixel.point), glm::normalize(view.lights[0].position - pixel.point));
     // Where light grazes a facet, its neighbours, a thousandth of a radius away, may cast shadow.
     if (std::abs(cosine) < 0.1) continue;
     ++(pixel.is_lit ? lit : dark);
@@ -148,7 +148,7 @@ TEST_P(SurfaceLookupBy, ALonePlaneIsLitWhollyAtAnySlope) {
   view.camera.target = {0, 0, 0};
   view.size = {64, 64};
   for (double height : {5.0, 0.5, 0.05}) {
-    view.light.position = {1, height, -1};
+    view.lights[0].position = {1, height, -1};
     for (int shadow_map_size : {128, 2048}) {
       for (Ranges ranges : {Ranges::frame, Ranges::full}) {
         int dark = 0;
@@ -167,7 +167,7 @@ TEST_P(SurfaceLookupBy, AThinSheetIsDarkBehind) {
   scene::View view;
   view.camera.eye = {0, 4, 8};
   view.camera.target = {0, 0, 0};
-  view.light.position = {1, -2, -1};
+  view.lights[0].position = {1, -2, -1};
   view.size = {64, 64};
   for (const Seen& pixel : look(sheet, view, settings_of(GetParam()))) EXPECT_FALSE(pixel.is_lit);
 }

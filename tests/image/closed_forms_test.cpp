@@ -28,7 +28,7 @@ struct Lit {
 /// The airlight of a ray that is lit over these intervals of distance, but for a ray within a quarter pixel
 /// of the light.
 double airlight(const scene::View& view, glm::dvec3 ray, const std::vector<Lit>& lit) {
-  const glm::dvec3 to_light = view.light.position - view.camera.eye;
+  const glm::dvec3 to_light = view.lights[0].position - view.camera.eye;
   const double alpha = std::atan2(glm::length(glm::cross(to_light, ray)), glm::dot(to_light, ray));
   double sum = 0.0;
   for (const Lit& part : lit)
@@ -96,7 +96,7 @@ TEST_P(ClosedForm, ASphereCastsACone) {
   const scene::View view = tests::view_of(scene, {24, 24});
   const double radius = 1.0;  // around the origin
   const auto expected = expected_image(view, [&](glm::dvec3 eye, glm::dvec3 ray) {
-    const glm::dvec3 light = view.light.position;
+    const glm::dvec3 light = view.lights[0].position;
     const auto is_dark = [&](double t) {
       const glm::dvec3 d = eye + t * ray - light;
       const double nearest = std::clamp(-glm::dot(light, d) / glm::dot(d, d), 0.0, 1.0);
@@ -146,11 +146,11 @@ TEST(EmptyFog, EqualsTheReferenceInEveryChannelWithLightInFrontAndBehind) {
   view.camera.target = {0, 0, -1};
   view.camera.vertical_fov_degrees = 50;
   view.medium = {.sigma_s = {0.1f, 0.3f, 0.05f}, .sigma_a = {0.02f, 0.0f, 0.4f}};
-  view.light.intensity = {3, 2, 1};
+  view.lights[0].intensity = {3, 2, 1};
   view.size = {48, 48};
   for (glm::dvec3 light :
        {glm::dvec3(0.2, 0.1, -3), glm::dvec3(2, 1, 0.3), glm::dvec3(0.3, -0.2, 4), glm::dvec3(-1, 5, -2)}) {
-    view.light.position = light;
+    view.lights[0].position = light;
     const auto exact = reference::Reference({}, view).converged(16);
     const auto image = tests::render_vsv({}, view).airlight;
     for (std::size_t i = 0; i < image.size(); ++i) {

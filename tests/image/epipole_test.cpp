@@ -18,7 +18,7 @@ float largest(const std::vector<glm::vec3>& image) {
 scene::View view_of_the_light() {
   scene::View view;
   view.camera.target = {0.03, 0.02, -1.0};
-  view.light.position = {0.0, 0.0, -10.0};
+  view.lights[0].position = {0.0, 0.0, -10.0};
   view.size = {96, 96};
   return view;
 }

@@ -20,7 +20,7 @@ TEST(Factored, IsTheTableWhereNothingCastsShadow) {
   view.medium.sigma_s = {0.1f, 0.2f, 0.4f};
   // The last light lies behind the camera: there, rays end within a few cells.
   for (glm::dvec3 offset : {glm::dvec3(0, 0, 0), glm::dvec3(3, 1, 0), glm::dvec3(0, 0, 20)}) {
-    view.light.position += offset;
+    view.lights[0].position += offset;
     const auto expected = tests::render_vsv({}, view).airlight;
     EXPECT_LT(tests::error_of(tests::render_vsv({}, view, factored()).airlight, expected).max, 1e-6);
   }
@@ -33,7 +33,7 @@ TEST(Factored, IsTheLitFractionOfTheAnglesTimesTheUnshadowedAirlight) {
   const frame::FrameImages images = tests::render_vsv(scene.geometry, view, factored());
   const auto unshadowed = tests::render_vsv({}, view).airlight;
   const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
-  const glm::dvec3 to_light = view.light.position - camera.eye;
+  const glm::dvec3 to_light = view.lights[0].position - camera.eye;
   const auto angle_at_light = [&](glm::dvec3 point) {  // relative to the eye
     return std::atan2(glm::length(glm::cross(to_light, point)), glm::dot(to_light, to_light - point));
   };

@@ -43,8 +43,8 @@ TEST(TexturedLight, OfOneColourScalesSurfacesAndAirlight) {
   scene::View view = tests::view_of(scene, {48, 48});
   scene::View scaled = view;
   const glm::vec3 colour(0.5f, 2.0f, 0.0f);
-  scaled.light.intensity *= colour;
-  view.light.texture = texture_of({7, 4}, [&](int, int) { return colour; });
+  scaled.lights[0].intensity *= colour;
+  view.lights[0].texture = texture_of({7, 4}, [&](int, int) { return colour; });
   const frame::FrameImages image = tests::render_vsv(scene.geometry, view, riemann());
   const frame::FrameImages expected = tests::render_vsv(scene.geometry, scaled, riemann());
   for (std::size_t i = 0; i < image.radiance.size(); ++i) {
@@ -79,8 +79,8 @@ TEST(TexturedLight, WithOneBrightSpotLightsTheWallItPointsTo) {
   gpu::StageTimer off(nullptr);
   for (const Spot& spot : spots) {
     scene::View view;
-    view.light.position = {0, 0, 0};
-    view.light.texture = texture_of(
+    view.lights[0].position = {0, 0, 0};
+    view.lights[0].texture = texture_of(
         {8, 4}, [&](int x, int y) { return glm::vec3(spot.texel == glm::ivec2(x, y) ? 1.0f : 0.0f); });
     view.size = {1, 1};
     view.camera.vertical_fov_degrees = 1;
@@ -104,7 +104,7 @@ TEST(TexturedLight, HalfBlackAgreesWithTheReference) {
   const scene::Scene& scene = tests::builtin("cornell");
   scene::View view = tests::view_of(scene, {64, 64});
   const frame::FrameImages plain = tests::render_vsv(scene.geometry, view, riemann());
-  view.light.texture = half_black();
+  view.lights[0].texture = half_black();
   const tests::Truth truth = tests::trace(scene.geometry, view, 256);
   const frame::FrameImages images = tests::render_vsv(scene.geometry, view, riemann());
   // The grid's error as without a texture, and a sum over cells across the edge between light and dark, a
@@ -123,7 +123,7 @@ TEST(TexturedLight, HalfBlackAgreesWithTheReference) {
     const glm::dvec3 ray =
         glm::normalize(camera.forward + (2 * (x + 0.5) / view.size.x - 1) * camera.half_width * camera.right +
                        (1 - 2 * (y + 0.5) / view.size.y) * camera.half_height * camera.up);
-    const glm::dvec3 d = camera.eye + static_cast<double>(images.distance[i]) * ray - view.light.position;
+    const glm::dvec3 d = camera.eye + static_cast<double>(images.distance[i]) * ray - view.lights[0].position;
     const double longitude = std::atan2(d.x, d.z), edge = 2 * std::numbers::pi / 64;
     const bool is_near_an_edge = std::abs(longitude) < edge || std::abs(longitude) > std::numbers::pi - edge;
     if (is_near_an_edge) continue;
@@ -140,11 +140,11 @@ TEST(TexturedLight, HalfBlackAgreesWithTheReference) {
 TEST(TexturedLight, InEmptyFogAgreesWithTheReferenceFromEverySide) {
   scene::View view = tests::view_of(tests::builtin("empty"), {24, 24});
   view.medium.sigma_s = {0.1f, 0.3f, 0.5f};
-  view.light.texture = texture_of({16, 8}, [](int x, int y) {
+  view.lights[0].texture = texture_of({16, 8}, [](int x, int y) {
     return glm::vec3((x + y) % 2 == 0 ? 1.0f : 0.1f, static_cast<float>(x) / 16, static_cast<float>(y) / 8);
   });
   for (glm::dvec3 offset : {glm::dvec3(0, 0, 0), glm::dvec3(0.5, 2, 0.1), glm::dvec3(-1, -3, 9)}) {
-    view.light.position += offset;
+    view.lights[0].position += offset;
     const auto expected = reference::Reference({}, view).converged(16).radiance;
     const auto error = tests::error_of(tests::render_vsv({}, view, riemann()).airlight, expected);
     // A sum over 512 cells of a texture that is not smooth.
@@ -157,7 +157,7 @@ TEST(TexturedLight, ComesAndGoesFromFrameToFrame) {
   const scene::Scene& scene = tests::builtin("cornell");
   const scene::View plain = tests::view_of(scene, {16, 16});
   scene::View textured = plain;
-  textured.light.texture = half_black();
+  textured.lights[0].texture = half_black();
   frame::Frame frame(tests::gpu_context(), scene.geometry, 256);
   media::Vsv vsv(tests::gpu_context(), {64, 128, 128}, media::VsvIntegral::riemann);
   frame::NoShadow no_shadow;
@@ -174,7 +174,7 @@ TEST(TexturedLight, ComesAndGoesFromFrameToFrame) {
 
 TEST(TexturedLight, IsRefusedByIntegralsThatDoNotLookAtEverySample) {
   scene::View view = tests::view_of(tests::builtin("empty"), {8, 8});
-  view.light.texture = half_black();
+  view.lights[0].texture = half_black();
   for (media::VsvIntegral integral : {media::VsvIntegral::table, media::VsvIntegral::factored}) {
     try {
       tests::render_vsv({}, view, {.resolution = {64, 64, 128}, .integral = integral});

@@ -15,7 +15,7 @@ TEST_P(RgbMedium, GivesEachChannelWhatAGreyMediumOfItsOwnWould) {
   scene::View view = tests::view_of(scene, {48, 48});
   view.medium.sigma_s = {0.1f, 0.4f, 0.8f};
   view.medium.sigma_a = {0.3f, 0.0f, 0.1f};
-  view.light.intensity = {1, 2, 3};
+  view.lights[0].intensity = {1, 2, 3};
   // Equal cells, so that the bits are the same in all four runs.
   const tests::VsvSettings settings{.resolution = {128, 256, 256},
                                     .integral = GetParam(),
@@ -26,7 +26,7 @@ TEST_P(RgbMedium, GivesEachChannelWhatAGreyMediumOfItsOwnWould) {
     scene::View grey = view;
     grey.medium.sigma_s = glm::vec3(view.medium.sigma_s[channel]);
     grey.medium.sigma_a = glm::vec3(view.medium.sigma_a[channel]);
-    grey.light.intensity = glm::vec3(view.light.intensity[channel]);
+    grey.lights[0].intensity = glm::vec3(view.lights[0].intensity[channel]);
     const frame::FrameImages alone = tests::render_vsv(scene.geometry, grey, settings);
     double largest = 0.0;
     for (const glm::vec3& value : alone.airlight) largest = std::max(largest, static_cast<double>(value.x));

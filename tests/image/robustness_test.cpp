@@ -48,8 +48,8 @@ scene::View blocks_view() {
   view.camera.eye = {0.3, 1.5, 6.0};
   view.camera.target = {0.0, 1.0, 0.0};
   view.camera.vertical_fov_degrees = 50;
-  view.light.position = {-3.0, 3.5, 1.0};
-  view.light.intensity = glm::vec3(10.0f);
+  view.lights[0].position = {-3.0, 3.5, 1.0};
+  view.lights[0].intensity = glm::vec3(10.0f);
   view.medium.sigma_s = glm::vec3(0.1f);
   view.size = {49, 49};  // an odd number: a pixel centre lies in the middle
   return view;
@@ -58,7 +58,7 @@ scene::View blocks_view() {
 /// Puts the light at this distance in the direction of a point of the image, in [−1, 1]².
 void light_at(scene::View& view, double x, double y, double distance) {
   const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
-  view.light.position =
+  view.lights[0].position =
       view.camera.eye + distance * glm::normalize(camera.forward + x * camera.half_width * camera.right +
                                                   y * camera.half_height * camera.up);
 }
@@ -73,7 +73,7 @@ std::vector<Case> cases() {
   // What 256 × 512 × 256 cells and a shadow map of 512² texels leave of the mean.
   const double usual = 0.005;
   const auto light = [](double x, double y, double z) {
-    return [=](scene::View& view, scene::Geometry&) { view.light.position = {x, y, z}; };
+    return [=](scene::View& view, scene::Geometry&) { view.lights[0].position = {x, y, z}; };
   };
   const auto at = [](double x, double y, double distance) {
     return [=](scene::View& view, scene::Geometry&) { light_at(view, x, y, distance); };
@@ -95,8 +95,8 @@ std::vector<Case> cases() {
       {"light_outside_the_scene", light(30, 40, -20), usual},
       {"light_a_million_metres_away",
        [](scene::View& view, scene::Geometry&) {
-         view.light.position = {4e5, 8e5, -3e5};
-         view.light.intensity = glm::vec3(1e12f);
+         view.lights[0].position = {4e5, 8e5, -3e5};
+         view.lights[0].intensity = glm::vec3(1e12f);
          view.medium.sigma_s = glm::vec3(1e-7f);
        },
        usual},
@@ -125,7 +125,7 @@ std::vector<Case> cases() {
          view.camera.eye = {3.5, 5, 1};
          view.camera.target = {3.5, 0, 1};
          view.camera.up = {0, 0, -1};
-         view.light.position = {3.5, 1, 1};
+         view.lights[0].position = {3.5, 1, 1};
        },
        usual},
       {"camera_inside_an_object",
@@ -178,7 +178,7 @@ std::vector<Case> cases() {
          view.medium.g = 1.0f;
        },
        0, ExitCode::bad_file},
-      {"no_light", [](scene::View& view, scene::Geometry&) { view.light.intensity = glm::vec3(0.0f); },
+      {"no_light", [](scene::View& view, scene::Geometry&) { view.lights[0].intensity = glm::vec3(0.0f); },
        usual},
       {"narrow_view", [](scene::View& view, scene::Geometry&) { view.camera.vertical_fov_degrees = 0.05; },
        0.02},
@@ -191,7 +191,7 @@ std::vector<Case> cases() {
          for (glm::vec3& position : geometry.positions) position += glm::vec3(offset);
          view.camera.eye += offset;
          view.camera.target += offset;
-         view.light.position += offset;
+         view.lights[0].position += offset;
        },
        usual},
   };
@@ -244,9 +244,9 @@ TEST(RobustnessOfFiles, AMeshFarFromTheOriginIsSane) {
   const glm::dvec3 size(box.upper - box.lower);
   scene::View view;
   view.camera = scene::fit_camera(scene.geometry);
-  view.light.position = glm::dvec3(box.upper) + 0.3 * size;
+  view.lights[0].position = glm::dvec3(box.upper) + 0.3 * size;
   const double extent = glm::length(size);
-  view.light.intensity = glm::vec3(static_cast<float>(extent * extent));
+  view.lights[0].intensity = glm::vec3(static_cast<float>(extent * extent));
   view.medium.sigma_s = glm::vec3(static_cast<float>(0.3 / extent));
   view.size = {64, 64};
   expect_sane(scene.geometry, view, 0.01);

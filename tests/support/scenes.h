@@ -18,7 +18,8 @@ inline const scene::Scene& builtin(std::string_view name) {
 
 /// The view that a scene brings along.
 inline scene::View view_of(const scene::Scene& scene, glm::ivec2 size) {
-  return {.camera = scene.cameras.at(0), .light = scene.lights.at(0), .medium = scene.medium, .size = size};
+  return {
+      .camera = scene.cameras.at(0), .lights = {scene.lights.at(0)}, .medium = scene.medium, .size = size};
 }
 
 /// Adds the triangle (a, b, c).

@@ -31,8 +31,8 @@ struct CyclesImage {
     view.camera.eye = eye;
     view.camera.target = target;
     view.camera.vertical_fov_degrees = fov_degrees;
-    view.light.position = light;
-    view.light.intensity = glm::vec3(intensity);
+    view.lights[0].position = light;
+    view.lights[0].intensity = glm::vec3(intensity);
     view.medium.sigma_s = glm::vec3(sigma_s);
     view.medium.sigma_a = glm::vec3(sigma_a);
     if (g != 0) view.medium.phase = scene::PhaseFunction::henyey_greenstein;

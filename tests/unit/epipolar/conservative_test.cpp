@@ -30,8 +30,8 @@ class Voxels {
   Voxels(const scene::View& view, const Resolution& n, Ranges ranges, double phi_max)
       : n_(n),
         eye_(view.camera.eye),
-        distance_(glm::distance(view.light.position, eye_)),
-        axes_(make_axes((view.light.position - eye_) / distance_)),
+        distance_(glm::distance(view.lights[0].position, eye_)),
+        axes_(make_axes((view.lights[0].position - eye_) / distance_)),
         space_(epipolar_block(view, n, ranges, ThetaCells::fitted)),
         cells_{static_cast<float>(phi_max), 1.5f, static_cast<float>(n.phi)},
         first_(static_cast<std::size_t>(n.theta) * static_cast<std::size_t>(n.phi)),
@@ -166,7 +166,7 @@ scene::View view_between(glm::dvec3 eye, glm::dvec3 target, glm::dvec3 light, do
   view.camera.eye = eye;
   view.camera.target = target;
   view.camera.vertical_fov_degrees = fov;
-  view.light.position = light;
+  view.lights[0].position = light;
   view.size = {64, 64};
   return view;
 }

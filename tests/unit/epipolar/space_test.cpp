@@ -87,7 +87,7 @@ TEST(MakeAxes, AreContinuousAwayFromStraightDown) {
 TEST(MakeAxes, DoNotSpinWithTheCamera) {
   scene::View view;
   view.camera.eye = {1, 2, 3};
-  view.light.position = {-2, 4, 1};
+  view.lights[0].position = {-2, 4, 1};
   Random random(4);
   view.camera.target = {0, 0, 0};
   const shaders::EpipolarBlock first = epipolar_block(view, {64, 64, 128}, Ranges::frame, ThetaCells::fitted);
@@ -190,12 +190,12 @@ TEST(EpipolarBlock, SpansTheRangeWithItsCells) {
   scene::View view;
   view.camera.eye = {1, 2, 3};
   view.camera.target = {0, 1, 0};
-  view.light.position = {4, 4, -2};
+  view.lights[0].position = {4, 4, -2};
   view.size = {100, 60};
   const shaders::EpipolarBlock block =
       epipolar_block(view, {100, 64, 128}, Ranges::frame, ThetaCells::fitted);
   const Range range = alpha_range(scene::camera_frame(view.camera, view.size),
-                                  glm::normalize(view.light.position - view.camera.eye));
+                                  glm::normalize(view.lights[0].position - view.camera.eye));
   EXPECT_FLOAT_EQ(block.alpha_min, static_cast<float>(range.lower));
   EXPECT_NEAR(static_cast<double>(block.alpha_min + 100 * block.alpha_step), range.upper, 1e-6);
   EXPECT_FLOAT_EQ(block.distance, static_cast<float>(std::sqrt(9.0 + 4.0 + 25.0)));
@@ -205,12 +205,12 @@ TEST(EpipolarBlock, KeepsItsAxesFarFromTheOrigin) {
   scene::View near;
   near.camera.eye = {1, 2, 3};
   near.camera.target = {0, 1, 0};
-  near.light.position = {4, 4, -2};
+  near.lights[0].position = {4, 4, -2};
   scene::View far = near;
   const glm::dvec3 offset(1048576, -2097152, 4194304);
   far.camera.eye += offset;
   far.camera.target += offset;
-  far.light.position += offset;
+  far.lights[0].position += offset;
   const shaders::EpipolarBlock a = epipolar_block(near, {64, 64, 128}, Ranges::frame, ThetaCells::fitted),
                                b = epipolar_block(far, {64, 64, 128}, Ranges::frame, ThetaCells::fitted);
   EXPECT_EQ(a.axis, b.axis);
@@ -230,9 +230,9 @@ TEST(ThetaRange, HoldsEveryRayAndTouchesSome) {
     view.camera.target = random.direction();
     view.camera.vertical_fov_degrees = random.uniform(20, 100);
     view.size = {80, 60};
-    view.light.position = 3.0 * random.direction();
+    view.lights[0].position = 3.0 * random.direction();
     const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
-    const Axes axes = make_axes(glm::normalize(view.light.position));
+    const Axes axes = make_axes(glm::normalize(view.lights[0].position));
     const Range range = theta_range(camera, axes);
     const double middle = 0.5 * (range.lower + range.upper), half = 0.5 * (range.upper - range.lower);
     double farthest = 0.0;
@@ -264,9 +264,9 @@ TEST(PixelExact, RowsAreNowhereMoreThanAPixelApart) {
     view.camera.vertical_fov_degrees = random.uniform(20, 90);
     view.size = {160, 120};
     const double spread = trial % 2 == 0 ? 0.5 : 3.0;  // in view, or often not
-    view.light.position = {random.uniform(-spread, spread), random.uniform(-spread, spread), -2.0};
+    view.lights[0].position = {random.uniform(-spread, spread), random.uniform(-spread, spread), -2.0};
     const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
-    const Axes axes = make_axes(glm::normalize(view.light.position));
+    const Axes axes = make_axes(glm::normalize(view.lights[0].position));
     for (const ThetaCells cells : {ThetaCells::fitted, ThetaCells::equal}) {
       const Resolution n = pixel_exact(view, Ranges::frame, cells);
       const shaders::EpipolarBlock space = epipolar_block(view, n, Ranges::frame, cells);

@@ -12,11 +12,11 @@ TEST(MediumBlock, ExtinctionIsScatteringPlusAbsorption) {
                  .phase = scene::PhaseFunction::henyey_greenstein,
                  .g = 0.4f,
                  .rayleigh_weight = 0.3f};
-  view.light.intensity = {7, 8, 9};
+  view.lights[0].intensity = {7, 8, 9};
   const shaders::MediumBlock block = medium_block(view);
   EXPECT_EQ(block.sigma_s, view.medium.sigma_s);
   EXPECT_EQ(block.sigma_t, view.medium.sigma_s + view.medium.sigma_a);
-  EXPECT_EQ(block.intensity, view.light.intensity);
+  EXPECT_EQ(block.intensity, view.lights[0].intensity);
   EXPECT_EQ(block.g, 0.4f);
   EXPECT_EQ(block.rayleigh_weight, 0.3f);
 }

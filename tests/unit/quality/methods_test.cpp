@@ -100,7 +100,7 @@ TEST(SharedReference, TracesTheTruthOnceAndChargesForItTwice) {
   geometry.materials = {{}};
   scene::View view;
   view.camera = {"", {0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 45};
-  view.light.position = {1, 2, 3};
+  view.lights[0].position = {1, 2, 3};
   view.size = {8, 8};
   SharedReference shared(geometry, view, {});
 

@@ -99,7 +99,7 @@ TEST(EmptyFog, StraightAtTheLightIsTheAirlightAQuarterPixelAside) {
 TEST(EmptyFog, LightStraightBehindTheCamera) {
   for (const scene::Medium& medium : media()) {
     scene::View view = one_pixel_view(3.0, 0.0, medium);
-    view.light.position = {0, 0, -3};
+    view.lights[0].position = {0, 0, -3};
     const AirlightImage image = Reference({}, view).converged(8);
     expect_near(image.radiance[0], airlight_over_distance(view, std::numbers::pi, 0.0, k_infinity),
                 describe(medium, 3.0, std::numbers::pi));

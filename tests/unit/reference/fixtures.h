@@ -59,8 +59,8 @@ inline scene::View one_pixel_view(double D, double alpha, const scene::Medium& m
   scene::View view;
   view.camera.target = {0, 0, 1};
   view.camera.vertical_fov_degrees = 0.01;
-  view.light.position = D * glm::dvec3(0, std::sin(alpha), std::cos(alpha));
-  view.light.intensity = {2, 3, 5};
+  view.lights[0].position = D * glm::dvec3(0, std::sin(alpha), std::cos(alpha));
+  view.lights[0].intensity = {2, 3, 5};
   view.medium = medium;
   view.size = {1, 1};
   return view;
@@ -71,8 +71,8 @@ inline scene::View clutter_view(int size) {
   scene::View view;
   view.camera.eye = {0.5, 1, 6};
   view.camera.target = {0, 0, 0};
-  view.light.position = {0.3, 0.2, -0.4};
-  view.light.intensity = {2, 3, 5};
+  view.lights[0].position = {0.3, 0.2, -0.4};
+  view.lights[0].intensity = {2, 3, 5};
   view.medium.sigma_s = {0.1f, 0.2f, 0.3f};
   view.size = {size, size};
   return view;
@@ -102,7 +102,7 @@ double integrate(const Function& f, double a, double b, double tolerance, int de
 /// The airlight of the part [t_from, t_to] of a view ray, every point of it lit: the integral over t of
 /// σ_s e^{−σ(t+r)} p I/r², to 1e-9. An infinite t_to ends where e^{−σt} is e^{−60}.
 inline glm::dvec3 airlight_over_distance(const scene::View& view, double alpha, double t_from, double t_to) {
-  const double D = glm::length(view.light.position - view.camera.eye);
+  const double D = glm::length(view.lights[0].position - view.camera.eye);
   const double nearest_t = D * std::cos(alpha), nearest_r = D * std::sin(alpha);
   glm::dvec3 radiance(0.0);
   for (int channel = 0; channel < 3; ++channel) {
@@ -113,7 +113,7 @@ inline glm::dvec3 airlight_over_distance(const scene::View& view, double alpha, 
       const double r = std::hypot(t - nearest_t, nearest_r);
       const double cosine = (nearest_t - t) / r;
       return sigma_s * std::exp(-sigma_t * (t + r)) * phase(view.medium, cosine) *
-             static_cast<double>(view.light.intensity[channel]) / (r * r);
+             static_cast<double>(view.lights[0].intensity[channel]) / (r * r);
     };
     const double end = std::min(t_to, t_from + 60 / sigma_t + 2 * D);
     // Split around the point nearest to the light, where the integrand may be a narrow peak.

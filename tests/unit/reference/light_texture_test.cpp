@@ -57,7 +57,7 @@ TEST(LightLookup, OfOneTexelIsConstant) {
 
 /// The airlight of an endless view ray without shadow, integrated over the distance.
 glm::dvec3 airlight_over_distance(const scene::View& view, const LightLookup& light) {
-  const glm::dvec3 to_light = view.light.position - view.camera.eye;
+  const glm::dvec3 to_light = view.lights[0].position - view.camera.eye;
   const glm::dvec3 ray = glm::normalize(view.camera.target - view.camera.eye);
   glm::dvec3 radiance(0.0);
   for (int channel = 0; channel < 3; ++channel) {
@@ -67,7 +67,7 @@ glm::dvec3 airlight_over_distance(const scene::View& view, const LightLookup& li
       const glm::dvec3 from_light = t * ray - to_light;
       const double r = glm::length(from_light);
       return sigma_s * std::exp(-sigma_t * (t + r)) * phase(view.medium, -glm::dot(from_light, ray) / r) *
-             static_cast<double>(view.light.intensity[channel]) / (r * r) * light.at(from_light)[channel];
+             static_cast<double>(view.lights[0].intensity[channel]) / (r * r) * light.at(from_light)[channel];
     };
     // Where the texture is not smooth the rule is of low order: many short intervals.
     const double D = glm::length(to_light), end = 30 / sigma_t + 2 * D;
@@ -85,12 +85,12 @@ TEST(TexturedLight, InEmptyFogMatchesTheIntegralOverDistance) {
     for (glm::dvec3 target : {glm::dvec3(0.1, 0, 1), glm::dvec3(0.3, 0.5, -0.8), glm::dvec3(1, -0.2, 0.1)}) {
       scene::View view = one_pixel_view(3.0, 1.0);
       view.camera.target = target;
-      view.light.texture = random_texture(size);
+      view.lights[0].texture = random_texture(size);
       view.medium = {.sigma_s = {0.1f, 0.3f, 0.6f},
                      .sigma_a = {0.0f, 0.1f, 0.0f},
                      .phase = scene::PhaseFunction::hoffman_preetham,
                      .g = 0.6f};
-      const glm::dvec3 expected = airlight_over_distance(view, LightLookup(*view.light.texture));
+      const glm::dvec3 expected = airlight_over_distance(view, LightLookup(*view.lights[0].texture));
       const AirlightImage image = Reference({}, view).converged(8);
       const glm::vec3 march = Reference({}, view).march(8192, RayMode::packet).radiance[0];
       EXPECT_EQ(image.self_error, 0.0);
@@ -109,9 +109,9 @@ TEST(TexturedLight, OverAPoleMatchesTheIntegralOverDistance) {
   // The light right above the view ray, or beside it by next to nothing: the azimuth turns at once.
   for (double aside : {0.0, 1e-9, 1e-4, 0.05}) {
     scene::View view = one_pixel_view(3.0, 1.0);
-    view.light.position = {aside, 2, 2};
-    view.light.texture = random_texture({6, 3});
-    const glm::dvec3 expected = airlight_over_distance(view, LightLookup(*view.light.texture));
+    view.lights[0].position = {aside, 2, 2};
+    view.lights[0].texture = random_texture({6, 3});
+    const glm::dvec3 expected = airlight_over_distance(view, LightLookup(*view.lights[0].texture));
     const glm::vec3 radiance = Reference({}, view).converged(8).radiance[0];
     for (int channel = 0; channel < 3; ++channel) {
       EXPECT_NEAR(static_cast<double>(radiance[channel]), expected[channel], 4e-6 * expected[channel])
@@ -125,8 +125,8 @@ TEST(TexturedLight, OfOneColourScalesTheIntensity) {
   scene::View view = tests::clutter_view(8);
   scene::View scaled = view;
   const glm::vec3 colour(0.5f, 2.0f, 0.0f);
-  scaled.light.intensity *= colour;
-  view.light.texture =
+  scaled.lights[0].intensity *= colour;
+  view.lights[0].texture =
       std::make_shared<scene::LightTexture>("", glm::ivec2(7, 4), std::vector<glm::vec3>(28, colour));
   const Reference textured(geometry, view), plain(geometry, scaled);
   const AirlightImage image = textured.converged(64), expected = plain.converged(64);

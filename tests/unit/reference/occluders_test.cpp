@@ -33,12 +33,12 @@ double rrmse(const AirlightImage& a, const AirlightImage& b) {
 /// A light at a height of 2 above the view ray from the origin along +Z, 3 ahead of the eye.
 scene::View overhead_light() {
   scene::View view = one_pixel_view(1.0, 0.0, {.sigma_s = {0.05f, 0.1f, 0.5f}, .sigma_a = glm::vec3(0.02f)});
-  view.light.position = {0, 2, 3};
+  view.lights[0].position = {0, 2, 3};
   return view;
 }
 
 double alpha_of(const scene::View& view) {
-  return std::atan2(view.light.position.y, view.light.position.z);
+  return std::atan2(view.lights[0].position.y, view.lights[0].position.z);
 }
 
 TEST(Occluders, AHalfPlaneShadowsTheRayUpToItsEdge) {
@@ -78,7 +78,7 @@ TEST(Occluders, ASphereShadowsTheRayBetweenItsTangents) {
   tests::add_sphere(geometry, centre, static_cast<float>(radius), 512);
   const AirlightImage image = Reference(geometry, view).converged(256);
   // Angles from straight down to the tangents, and where those meet the ray.
-  const glm::dvec3 to_centre = centre - view.light.position;
+  const glm::dvec3 to_centre = centre - view.lights[0].position;
   const double middle = std::atan2(to_centre.z, -to_centre.y),
                half = std::asin(radius / glm::length(to_centre));
   const double from = 3 + 2 * std::tan(middle - half), to = 3 + 2 * std::tan(middle + half);
@@ -142,7 +142,7 @@ TEST(Occluders, ALightOnASurfaceShinesToEitherSide) {
   // A slanted plane through the light, whose corners are not exact in binary.
   scene::Medium medium{.sigma_s = glm::vec3(0.1f)};
   const scene::View view = one_pixel_view(3.0, 2.5, medium);
-  const glm::vec3 light = view.light.position;
+  const glm::vec3 light = view.lights[0].position;
   const AirlightImage free = Reference({}, view).converged(64);
   for (float tilt : {0.0f, 0.1f, 0.3f}) {
     const glm::vec3 u(0.7f, tilt, 0.1f), v(0.1f, tilt, 1.3f);
@@ -188,7 +188,7 @@ TEST(Occluders, FarFromTheOriginNothingChanges) {
   for (glm::vec3& position : geometry.positions) position = glm::round(position * (32 * 8.0f)) / 8.0f;
   scene::View view = tests::clutter_view(24);
   view.camera.eye *= 32;
-  view.light.position *= 32;
+  view.lights[0].position *= 32;
   view.medium.sigma_s /= 32;
   const AirlightImage near = Reference(geometry, view).converged(128);
   const SurfaceImage near_surfaces = Reference(geometry, view).surfaces();
@@ -197,7 +197,7 @@ TEST(Occluders, FarFromTheOriginNothingChanges) {
   for (glm::vec3& position : geometry.positions) position += glm::vec3(offset);
   view.camera.eye += offset;
   view.camera.target += offset;
-  view.light.position += offset;
+  view.lights[0].position += offset;
   const Reference reference(geometry, view);
   // Eye and light are rounded to 1e-10 m there, and rays at edges may fall either way.
   EXPECT_LT(rrmse(reference.converged(128), near), 1e-4);
@@ -223,7 +223,7 @@ TEST(Occluders, OddSampleCountsWork) {
 
 TEST(Occluders, RefusesALightAtTheEye) {
   scene::View view = one_pixel_view(1.0, 1.0);
-  view.light.position = view.camera.eye;
+  view.lights[0].position = view.camera.eye;
   EXPECT_THROW(Reference({}, view), scene::Error);
 }
 

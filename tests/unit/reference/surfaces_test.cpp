@@ -12,7 +12,7 @@ scene::View looking_down(glm::dvec3 light) {
   view.camera.target = {0, 0, 0};
   view.camera.up = {0, 0, -1};
   view.camera.vertical_fov_degrees = 40;
-  view.light.position = light;
+  view.lights[0].position = light;
   view.size = {64, 64};
   return view;
 }

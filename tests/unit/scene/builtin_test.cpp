@@ -90,7 +90,7 @@ TEST_P(EachBuiltin, IsCompleteAndKeepsTheContractOfGeometry) {
   ASSERT_EQ(scene.lights.size(), 1u);
   EXPECT_FALSE(scene.cameras[0].name.empty());
   EXPECT_FALSE(scene.lights[0].name.empty());
-  EXPECT_NO_THROW(validate({scene.cameras[0], scene.lights[0], scene.medium, {64, 36}}));
+  EXPECT_NO_THROW(validate({scene.cameras[0], {scene.lights[0]}, scene.medium, {64, 36}}));
 
   const Geometry& geometry = scene.geometry;
   ASSERT_EQ(geometry.material_of_triangle.size(), geometry.triangles.size());

@@ -47,7 +47,7 @@ Geometry triangle_geometry() {
 
 View valid_view() {
   View view;
-  view.light.position = {0, 5, -3};
+  view.lights[0].position = {0, 5, -3};
   return view;
 }
 
@@ -121,7 +121,7 @@ TEST(CameraFrame, RefusesWhatIsNoView) {
 TEST(Validate, AcceptsAView) {
   EXPECT_NO_THROW(validate(valid_view()));
   View view = valid_view();
-  view.medium.sigma_s = view.medium.sigma_a = view.light.intensity = glm::vec3(0.0f);
+  view.medium.sigma_s = view.medium.sigma_a = view.lights[0].intensity = glm::vec3(0.0f);
   view.medium.phase = PhaseFunction::henyey_greenstein;
   view.medium.g = -0.99f;
   EXPECT_NO_THROW(validate(view));
@@ -135,17 +135,21 @@ TEST(Validate, RefusesWhatNoMethodCanRender) {
   };
   const ExitCode bad = ExitCode::bad_file;
   constexpr float k_nan_f = std::numeric_limits<float>::quiet_NaN();
+  expect_refused(bad, "no light", [](View& v) { v.lights.clear(); });
+  expect_refused(bad, "light 'second', position", [](View& v) {
+    v.lights.push_back(point_light("second", {0, k_nan, 0}, glm::vec3(1.0f)));
+  });
   expect_refused(bad, "at the eye, where the airlight is infinite",
-                 [](View& v) { v.light.position = v.camera.eye; });
-  expect_refused(bad, "at the eye", [](View& v) { v.light.position = v.camera.eye + glm::dvec3(1e-19); });
-  expect_refused(bad, "light, position: (0, nan, -3)", [](View& v) { v.light.position.y = k_nan; });
-  expect_refused(bad, "farther than", [](View& v) { v.light.position.y = -2e18; });
+                 [](View& v) { v.lights[0].position = v.camera.eye; });
+  expect_refused(bad, "at the eye", [](View& v) { v.lights[0].position = v.camera.eye + glm::dvec3(1e-19); });
+  expect_refused(bad, "light, position: (0, nan, -3)", [](View& v) { v.lights[0].position.y = k_nan; });
+  expect_refused(bad, "farther than", [](View& v) { v.lights[0].position.y = -2e18; });
   expect_refused(bad, "light 'sun', intensity: (1, -1, 1)", [](View& v) {
-    v.light.name = "sun";
-    v.light.intensity.y = -1.0f;
+    v.lights[0].name = "sun";
+    v.lights[0].intensity.y = -1.0f;
   });
   expect_refused(bad, "intensity",
-                 [](View& v) { v.light.intensity.z = std::numeric_limits<float>::infinity(); });
+                 [](View& v) { v.lights[0].intensity.z = std::numeric_limits<float>::infinity(); });
   expect_refused(bad, "sigma-s", [](View& v) { v.medium.sigma_s.x = -0.1f; });
   expect_refused(bad, "sigma-s", [&](View& v) { v.medium.sigma_s.z = k_nan_f; });
   expect_refused(bad, "sigma-a", [](View& v) { v.medium.sigma_a.y = -0.1f; });
