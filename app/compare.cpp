@@ -21,16 +21,16 @@ using scene::ExitCode;
 void require_accuracy(const quality::Comparison& comparison, double limit) {
   const quality::Run* worst = nullptr;
   for (const quality::Run& run : comparison.runs) {
-    if (run.is_judged && (!worst || run.airlight_error.rrmse > worst->airlight_error.rrmse)) worst = &run;
+    if (run.is_judged && (!worst || run.errors.airlight.rrmse > worst->errors.airlight.rrmse)) worst = &run;
   }
   if (!worst) return;
   // What the reference itself cannot vouch for is not claimed.
-  const double error = std::max(worst->airlight_error.rrmse, comparison.truth.self_error);
+  const double error = std::max(worst->errors.airlight.rrmse, comparison.truth.self_error);
   if (error <= limit) return;
   throw Error(
       ExitCode::threshold_missed, fmt::format("--max-error {}", limit),
       fmt::format("{} × {} is off by {:.4g} (rrmse; the reference's own uncertainty is {:.2g})",
-                  worst->volume, worst->surface, worst->airlight_error.rrmse, comparison.truth.self_error),
+                  worst->volume, worst->surface, worst->errors.airlight.rrmse, comparison.truth.self_error),
       "give the method more cells or samples, or allow more");
 }
 
@@ -38,12 +38,9 @@ void require_accuracy(const quality::Comparison& comparison, double limit) {
 
 void compare(const Options& options) {
   // Everything that can be wrong with the command is found before the driver is woken.
-  const quality::Settings settings = make_settings(options);
-  auto volumes = quality::parse_volumes(
-      options.get("volume").value_or(default_volumes(options, "vsv,vsv:integral=riemann,reference-march",
-                                                     "vsv:integral=riemann,reference-march")),
-      settings);
-  auto surfaces = quality::parse_surfaces(options.get("surface").value_or("shadow-map"), settings);
+  auto volumes = parse_volumes(options, "vsv,vsv:integral=riemann,reference-march");
+  auto surfaces = parse_surfaces(options);
+  const int samples = reference_samples(options);
   const int shadow_map = shadow_map_size(options);
   const int frames = quality::parse_count("--frames", options.get("frames").value_or("5"));
   std::optional<double> limit;
@@ -51,12 +48,12 @@ void compare(const Options& options) {
     limit = quality::parse_number("--max-error", *text);
     if (*limit < 0.0) throw Error(ExitCode::usage, "--max-error", fmt::format("'{}' is negative", *text));
     if (std::none_of(volumes.begin(), volumes.end(),
-                     [](const auto& choice) { return choice.method->is_judged; })) {
+                     [](const auto& choice) { return choice.method->traits.is_judged(); })) {
       throw Error(ExitCode::usage, "--max-error", "no --volume is judged by it", "add one that is, as vsv");
     }
   }
   Subject subject = make_subject(options);
-  quality::fit(volumes, surfaces, subject.view, subject.scene);
+  fit_to_view(options, volumes, surfaces, subject);
   const std::filesystem::path folder =
       options.output.empty() ? std::filesystem::path("out") / std::filesystem::path(options.scene).stem()
                              : std::filesystem::path(options.output);
@@ -76,10 +73,11 @@ void compare(const Options& options) {
                                             .volumes = volumes,
                                             .surfaces = surfaces,
                                             .shadow_map_size = shadow_map,
-                                            .reference_samples = settings.samples,
+                                            .reference_samples = samples,
                                             .frames = frames,
                                             .exposure = subject.exposure,
                                             .directory = folder,
+                                            .cache = options.get("cache").value_or(""),
                                             .debug = options.debug,
                                             .command = options.command_line(k_not_repeated),
                                             .progress = progress.follower()});

@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "quality/compare.h"
 #include "quality/light_texture.h"
 #include "quality/numbers.h"
+#include "quality/results.h"
 #include "scene/builtin.h"
 #include "scene/error.h"
 #include "scene/import.h"
@@ -21,10 +21,6 @@ namespace {
 
 using scene::Error;
 using scene::ExitCode;
-
-/// Options that set a key for every method that reads it.
-constexpr auto k_method_keys =
-    std::to_array<std::string_view>({"integral", "populate", "alpha", "theta", "phi"});
 
 Error usage(const std::string& where, const std::string& problem, const std::string& remedy = {}) {
   return Error(ExitCode::usage, where, problem, remedy);
@@ -222,10 +218,13 @@ std::span<const OptionLine> common_options() {
          "of PNG images: radiance is multiplied by it (default: the scene's; for a file, the 95th percentile "
          "maps to 0.8)"},
         {"shadow-map", "N", "side of a face of the shadow map [texels] (default: 2048)"},
-        {"reference-samples", "N", std::string(quality::key("samples").meaning)},
+        {"reference-samples", "N",
+         "of the reference: uniform steps in the light angle that look for changes of visibility (default: "
+         "512)"},
+        {"cache", "DIR", "keep the reference's images there, and look there before tracing them"},
     };
-    for (std::string_view name : k_method_keys)
-      lines.push_back({name, "VALUE", std::string(quality::key(name).meaning)});
+    for (const quality::CommonOptionText& text : quality::common_option_texts())
+      lines.push_back({text.name, "VALUE", text.help});
     return lines;
   }();
   return options;
@@ -262,22 +261,43 @@ Subject make_subject(const Options& options) {
   return subject;
 }
 
-quality::Settings make_settings(const Options& options) {
-  quality::Settings settings;
-  for (std::string_view name : k_method_keys) {
-    if (const auto text = options.get(std::string(name))) {
-      quality::key(name).set(settings, fmt::format("--{}", name), *text);
-    }
-  }
-  settings.samples =
-      quality::parse_count("--reference-samples", options.get("reference-samples").value_or("512"));
-  return settings;
+std::vector<quality::CommonOption> common_method_options(const Options& options) {
+  std::vector<quality::CommonOption> common;
+  const auto add = [&](const std::string& option, const std::string& name) {
+    if (const auto text = options.get(option)) common.push_back({"--" + option, name, *text});
+  };
+  for (const quality::CommonOptionText& text : quality::common_option_texts())
+    add(std::string(text.name), std::string(text.name));
+  add("reference-samples", "samples");
+  for (const quality::CommonOption& option : common) quality::require_valid(option);
+  return common;
 }
 
-std::string default_volumes(const Options& options, std::string_view plain,
-                            std::string_view for_light_texture) {
-  const bool adapts = options.get("light-texture") && !options.get("integral");
-  return std::string(adapts ? for_light_texture : plain);
+int reference_samples(const Options& options) {
+  return quality::parse_count("--reference-samples", options.get("reference-samples").value_or("512"));
+}
+
+std::vector<quality::VolumeChoice> parse_volumes(const Options& options, std::string_view usual) {
+  return quality::parse_volumes(options.get("volume").value_or(std::string(usual)),
+                                common_method_options(options));
+}
+
+std::vector<quality::SurfaceChoice> parse_surfaces(const Options& options) {
+  return quality::parse_surfaces(options.get("surface").value_or("shadow-map"),
+                                 common_method_options(options));
+}
+
+void fit_to_view(const Options& options, std::vector<quality::VolumeChoice>& volumes,
+                 std::vector<quality::SurfaceChoice>& surfaces, Subject& subject) {
+  // A usual method's options are not the user's choice, but for those that the command gives.
+  std::erase_if(volumes, [&](const quality::VolumeChoice& volume) {
+    const auto refusal = volume.method->refusal(volume.options, subject.view);
+    return refusal && !options.get("volume") &&
+           !options.get(refusal->where.substr(0, refusal->where.find('=')));
+  });
+  for (quality::VolumeChoice& volume : volumes) volume.fit(subject.view);
+  for (quality::SurfaceChoice& surface : surfaces) surface.fit(subject.view);
+  quality::warn_of_open_parts(volumes, surfaces, subject.scene);
 }
 
 int shadow_map_size(const Options& options) {

@@ -51,13 +51,20 @@ struct Subject {
 /// @throws scene::Error (usage, bad_file)
 Subject make_subject(const Options& options);
 
-/// What the options say to all methods. @throws scene::Error (usage)
-quality::Settings make_settings(const Options& options);
+/// The options that are meant for every method that has them. @throws scene::Error (usage)
+std::vector<quality::CommonOption> common_method_options(const Options& options);
 
-/// The list of airlight methods where --volume gives none: one for a light with a texture, which not every
-/// integral can take, unless --integral chooses one.
-std::string default_volumes(const Options& options, std::string_view plain,
-                            std::string_view for_light_texture);
+/// --reference-samples
+int reference_samples(const Options& options);
+
+/// The methods of --volume or --surface, or the usual ones.
+std::vector<quality::VolumeChoice> parse_volumes(const Options& options, std::string_view usual);
+std::vector<quality::SurfaceChoice> parse_surfaces(const Options& options);
+
+/// Fits methods to the view. Of usual ones, those that cannot show it are left out.
+/// @throws scene::Error (usage) where a method asked for cannot show it
+void fit_to_view(const Options& options, std::vector<quality::VolumeChoice>& volumes,
+                 std::vector<quality::SurfaceChoice>& surfaces, Subject& subject);
 
 /// --shadow-map [texels]
 int shadow_map_size(const Options& options);

@@ -6,21 +6,14 @@
 #include "app/commands.h"
 #include "app/output.h"
 #include "frame/frame.h"
-#include "quality/compare.h"
+#include "quality/pictures.h"
+#include "quality/results.h"
 
 namespace airlight::app {
 namespace {
 
 using scene::Error;
 using scene::ExitCode;
-
-/// The only entry of a list of methods.
-template <typename Choice>
-Choice one(const std::string& option, std::vector<Choice> choices) {
-  if (choices.size() != 1)
-    throw Error(ExitCode::usage, option, "render takes one method", "compare takes several");
-  return std::move(choices[0]);
-}
 
 }  // namespace
 
@@ -32,16 +25,17 @@ void render(const Options& options) {
   if (output.extension() != ".exr")
     throw Error(ExitCode::usage, "-o", fmt::format("'{}' does not end in .exr", options.output),
                 "images are OpenEXR, with a PNG preview beside");
-  const quality::Settings settings = make_settings(options);
-  auto volume = one(
-      "--volume",
-      quality::parse_volumes(
-          options.get("volume").value_or(default_volumes(options, "vsv", "vsv:integral=riemann")), settings));
-  auto surface =
-      one("--surface", quality::parse_surfaces(options.get("surface").value_or("shadow-map"), settings));
+  auto volumes = parse_volumes(options, "vsv,vsv:integral=riemann");
+  auto surfaces = parse_surfaces(options);
   const int shadow_map = shadow_map_size(options);
+  if (options.get("volume") && volumes.size() != 1)
+    throw Error(ExitCode::usage, "--volume", "render takes one method", "compare takes several");
+  if (surfaces.size() != 1)
+    throw Error(ExitCode::usage, "--surface", "render takes one method", "compare takes several");
   Subject subject = make_subject(options);
-  quality::fit(std::span(&volume, 1), std::span(&surface, 1), subject.view, subject.scene);
+  fit_to_view(options, volumes, surfaces, subject);
+  const quality::VolumeChoice& volume = volumes[0];
+  const quality::SurfaceChoice& surface = surfaces[0];
   std::filesystem::path preview = output;
   preview.replace_extension(".png");
   require_writable(output);
@@ -55,9 +49,10 @@ void render(const Options& options) {
     gpu::Context context;
     renderer = context.device().renderer;
     frame::Frame frame(context, subject.scene.geometry, shadow_map);
-    quality::SharedReference reference(subject.scene.geometry, subject.view, progress.follower());
-    const auto airlight = volume.method->make(context, reference, volume.settings);
-    const auto shadow = surface.method->make(context, reference, surface.settings);
+    quality::SharedReference reference(subject.scene.geometry, subject.view, progress.follower(),
+                                       options.get("cache").value_or(""));
+    const auto airlight = volume.make(context, reference);
+    const auto shadow = surface.make(context, reference);
     gpu::StageTimer off(nullptr);
     frame.render(subject.view, *shadow, *airlight, off);
     images = frame.read();
@@ -68,9 +63,8 @@ void render(const Options& options) {
   configuration["scene"] = options.scene;
   configuration["volume"] = volume.spec;
   configuration["surface"] = surface.spec;
-  for (const auto& [name, value] : volume.values()) configuration[name] = quality::text_of(value);
-  for (const auto& [name, value] : surface.values())
-    configuration["surface." + name] = quality::text_of(value);
+  for (const auto& [name, value] : volume.values()) configuration[name] = frame::text_of(value);
+  for (const auto& [name, value] : surface.values()) configuration["surface." + name] = frame::text_of(value);
   configuration["shadow-map"] = fmt::format("{}", shadow_map);
   configuration["exposure"] = fmt::format("{}", exposure);
   for (const char* name : {"albedo", "triangles"})

@@ -44,8 +44,8 @@ frame::DebugImage shadowed_samples(const Grid& grid, const frame::FrameInputs& i
   const gpu::Program program =
       gpu::Program::compute(k_shadowed_samples_comp, resolution_constants(grid.resolution()));
   const gpu::Texture fractions(gpu::Format::r32f, inputs.view.size);
-  inputs.surfaces.bind_sampler(0);
-  fractions.bind_image(0);
+  inputs.surfaces.bind_sampler(shaders::k_surface_unit);
+  fractions.bind_image(shaders::k_output_image);
   program.dispatch({inputs.view.size, 1}, {8, 8, 1});
   return {"shadowed_samples", "shadowed samples of each view ray before it ends, of all its samples",
           inputs.view.size, fractions.read<float>()};

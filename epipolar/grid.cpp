@@ -39,8 +39,6 @@ void validate(const Resolution& resolution) {
   const auto require = [](bool good, const char* option, int value, const char* rule) {
     if (!good) throw Error(ExitCode::usage, option, fmt::format("{} is not {}", value, rule));
   };
-  // Every driver dispatches 65535 groups along an axis, and shaders/epipolar/ has groups of two or more.
-  constexpr int k_largest_count = 1 << 17;
   require(resolution.alpha >= 1 && resolution.alpha <= k_largest_count, "--alpha", resolution.alpha,
           "between 1 and 131072");
   require(resolution.theta >= 1 && resolution.theta <= k_largest_count, "--theta", resolution.theta,
@@ -75,17 +73,17 @@ Grid::Grid(const gpu::Context& context, const Resolution& resolution) : resoluti
 }
 
 void Grid::bind() const {
-  block_.bind_uniform(1);
-  phi_range_.bind_storage(4);
-  first_shadowed_.bind_storage(7);
-  plane_texels_.bind_sampler(7);
-  texels_.bind_sampler(12);
-  first_shadowed_texels_.bind_sampler(14);
+  block_.bind_uniform(shaders::k_space_block);
+  phi_range_.bind_storage(shaders::k_phi_range_storage);
+  first_shadowed_.bind_storage(shaders::k_first_shadowed_storage);
+  plane_texels_.bind_sampler(shaders::k_planes_unit);
+  texels_.bind_sampler(shaders::k_grid_unit);
+  first_shadowed_texels_.bind_sampler(shaders::k_first_shadowed_unit);
 }
 
 void Grid::begin_pass(const Window& window, const std::array<std::uint32_t, 5>& levels) const {
   const std::int64_t bytes = plane_bytes(resolution_);
-  bits_.bind_storage(5, window.first_plane * bytes, window.planes * bytes);
+  bits_.bind_storage(shaders::k_grid_storage, window.first_plane * bytes, window.planes * bytes);
   const std::array<std::uint32_t, 8> block = {static_cast<std::uint32_t>(window.first_plane),
                                               static_cast<std::uint32_t>(window.planes),
                                               levels[0],
@@ -95,7 +93,7 @@ void Grid::begin_pass(const Window& window, const std::array<std::uint32_t, 5>& 
                                               levels[4],
                                               0};
   pass_.write(block.data(), sizeof block);
-  pass_.bind_uniform(3);
+  pass_.bind_uniform(4);
 }
 
 void dispatch_planes(const gpu::Program& program, const Grid& grid, int invocations_x, glm::uvec2 group) {

@@ -18,6 +18,9 @@ struct Resolution {
   bool operator==(const Resolution&) const = default;
 };
 
+/// Every driver dispatches 65535 groups along an axis, and shaders/epipolar/ has groups of two or more.
+inline constexpr int k_largest_count = 1 << 17;
+
 /// @throws scene::Error (usage) when a count is not positive or `phi` is not a multiple of 128.
 void validate(const Resolution& resolution);
 
@@ -48,15 +51,15 @@ class Grid {
   /// For each light ray (θ_j, φ_k), at index j·N_φ + k, the first cell of α in shadow; N_α where none is.
   const gpu::Buffer& first_shadowed() const { return first_shadowed_; }
 
-  /// Binds the block to uniform binding 1, the φ range to storage binding 4, the first shadowed cells to
-  /// storage binding 7 and sampler 14, the planes to sampler 7, the bits as texels to sampler 12.
+  /// Binds the block, the φ range, the first shadowed cells, the planes, and the bits as texels
+  /// (shaders/bindings.glsl).
   void bind() const;
 
   /// What all planes together consist of.
   const std::vector<Window>& windows() const { return windows_; }
 
   /// Makes a window, and levels of the multi-pass scan, what the next dispatches work on: binds the bits of
-  /// the window to storage binding 5 and shaders/epipolar/window.glsl to uniform binding 3.
+  /// the window for writing, and shaders/epipolar/window.glsl.
   void begin_pass(const Window& window, const std::array<std::uint32_t, 5>& levels = {}) const;
 
  private:

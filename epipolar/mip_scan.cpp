@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "epipolar/space_math.h"
+
 #include "spirv/epipolar/mip_scan_down_comp.h"
 #include "spirv/epipolar/mip_scan_up_comp.h"
 
@@ -43,8 +45,8 @@ void MipScan::pass(const gpu::Program& program, std::size_t fine, std::uint32_t 
 }
 
 void MipScan::run(const Grid& grid) const {
-  chain_.bind_storage(8);
-  chain_texels_.bind_sampler(15);
+  chain_.bind_storage(shaders::k_scratch_storage);
+  chain_texels_.bind_sampler(shaders::k_scratch_unit);
   for (const Window& window : grid.windows()) {
     for (std::size_t fine = 0; fine + 1 < levels_.size(); ++fine)
       pass((fine == 0 ? of_grid_ : of_chain_).up, fine, levels_[fine + 1].size, grid, window);

@@ -1,5 +1,7 @@
 #include "epipolar/populate_screen_space.h"
 
+#include "frame/blocks.h"
+
 #include <algorithm>
 #include <numeric>
 
@@ -50,8 +52,9 @@ PopulateScreenSpace::PopulateScreenSpace(const gpu::Context& context, const Grid
   flip_texels_ = {context, flips_, gpu::Format::rgba32ui, "the crossings of the screen-space voxelization"};
 }
 
-void PopulateScreenSpace::load(const gpu::Context& context, const scene::Geometry& geometry) {
-  const scene::Components components = scene::find_components(geometry);
+void PopulateScreenSpace::load(const frame::FrameInputs& inputs) {
+  const scene::Geometry& geometry = inputs.geometry();
+  const scene::Components& components = inputs.components();
   std::vector<scene::Box> boxes(components.count);
   for (std::size_t t = 0; t < geometry.triangles.size(); ++t) {
     const glm::uvec3 triangle = geometry.triangles[t];
@@ -76,18 +79,17 @@ void PopulateScreenSpace::load(const gpu::Context& context, const scene::Geometr
     triangles.push_back(geometry.triangles[triangle]);
   }
   triangles_ = gpu::Buffer::from(std::span<const glm::uvec3>(triangles));
-  triangle_texels_ = {context, triangles_, gpu::Format::rgb32ui, "the model's triangles"};
-  geometry_ = &geometry;
+  triangle_texels_ = {inputs.context, triangles_, gpu::Format::rgb32ui, "the model's triangles"};
+  scene_ = inputs.scene.id();
 }
 
-void PopulateScreenSpace::run(const gpu::Context& context, const Grid& grid,
-                              const frame::SceneBuffers& scene) {
-  if (geometry_ != &scene.geometry()) load(context, scene.geometry());
+void PopulateScreenSpace::run(const frame::FrameInputs& inputs, const Grid& grid) {
+  if (scene_ != inputs.scene.id()) load(inputs);
   grid.bits().clear();
-  scene.bind_samplers();
-  triangle_texels_.bind_sampler(9);
-  flips_.bind_storage(9);
-  flip_texels_.bind_sampler(15);
+  inputs.scene.bind_samplers();
+  triangle_texels_.bind_sampler(shaders::k_triangles_unit);
+  flips_.bind_storage(shaders::k_scratch_storage);
+  flip_texels_.bind_sampler(shaders::k_scratch_unit);
   for (const Window& window : grid.windows()) {
     grid.begin_pass(window);
     for (const Pass& pass : passes_) {

@@ -4,7 +4,7 @@
 
 #include "epipolar/grid.h"
 #include "epipolar/triangle_queue.h"
-#include "frame/scene_buffers.h"
+#include "frame/methods.h"
 #include "gpu/program.h"
 #include "gpu/texture.h"
 
@@ -24,7 +24,7 @@ class PopulateScreenSpace {
   PopulateScreenSpace(const gpu::Context& context, const Grid& grid);
 
   /// Clears the grid and sets the bits inside solids. The view's block and the grid are bound.
-  void run(const gpu::Context& context, const Grid& grid, const frame::SceneBuffers& scene);
+  void run(const frame::FrameInputs& inputs, const Grid& grid);
 
   std::int64_t bytes() const { return flips_.bytes() + triangles_.bytes(); }
 
@@ -32,13 +32,13 @@ class PopulateScreenSpace {
   struct Pass {
     std::uint32_t first, count;  ///< triangles
   };
-  void load(const gpu::Context& context, const scene::Geometry& geometry);
+  void load(const frame::FrameInputs& inputs);
 
   TriangleQueue crossings_;
   gpu::Program resolve_;
   gpu::Buffer flips_;
   gpu::TexelView flip_texels_;
-  const scene::Geometry* geometry_ = nullptr;  ///< whose triangles these are
+  std::uint64_t scene_ = 0;  ///< whose triangles these are: SceneBuffers::id
   gpu::Buffer triangles_;
   gpu::TexelView triangle_texels_;
   std::vector<Pass> passes_;

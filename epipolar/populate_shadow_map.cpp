@@ -1,5 +1,7 @@
 #include "epipolar/populate_shadow_map.h"
 
+#include "epipolar/space_math.h"
+
 #include "spirv/epipolar/populate_shadow_map_comp.h"
 
 namespace airlight::epipolar {
@@ -8,7 +10,7 @@ PopulateShadowMap::PopulateShadowMap(const Resolution& resolution)
     : program_(gpu::Program::compute(k_populate_shadow_map_comp, resolution_constants(resolution))) {}
 
 void PopulateShadowMap::run(const Grid& grid, const frame::ShadowMap& shadow_map) const {
-  shadow_map.depth().bind_sampler(0);
+  shadow_map.depth().bind_sampler(shaders::k_shadow_map_unit);
   const Resolution& n = grid.resolution();
   program_.dispatch({n.phi, (n.theta + 15) / 16, 1}, {16, 4, 1});
 }

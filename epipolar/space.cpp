@@ -152,8 +152,8 @@ ThetaSpacing theta_spacing(const scene::View& view, const scene::CameraFrame& ca
   return spacing;
 }
 
-Axes axes_of(const scene::View& view) {
-  return make_axes(glm::normalize(view.lights[0].position - view.camera.eye));
+Axes axes_of(const scene::View& view, const scene::Light& light) {
+  return make_axes(glm::normalize(light.position - view.camera.eye));
 }
 
 Range alpha_of_grid(const scene::CameraFrame& camera, const Axes& axes, Ranges ranges) {
@@ -162,15 +162,15 @@ Range alpha_of_grid(const scene::CameraFrame& camera, const Axes& axes, Ranges r
 
 }  // namespace
 
-shaders::EpipolarBlock epipolar_block(const scene::View& view, const Resolution& resolution, Ranges ranges,
-                                      ThetaCells theta_cells) {
-  const Axes axes = axes_of(view);
+shaders::EpipolarBlock epipolar_block(const scene::View& view, const scene::Light& light,
+                                      const Resolution& resolution, Ranges ranges, ThetaCells theta_cells) {
+  const Axes axes = axes_of(view, light);
   const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
   const Range alpha = alpha_of_grid(camera, axes, ranges);
   const ThetaSpacing theta = theta_spacing(view, camera, axes, ranges, theta_cells);
   shaders::EpipolarBlock block{};
   block.axis = glm::vec3(axes.axis);
-  block.distance = static_cast<float>(glm::distance(view.lights[0].position, view.camera.eye));
+  block.distance = static_cast<float>(glm::distance(light.position, view.camera.eye));
   block.u = glm::vec3(axes.u);
   block.f = glm::vec3(axes.f);
   block.alpha_min = static_cast<float>(alpha.lower);
@@ -182,8 +182,9 @@ shaders::EpipolarBlock epipolar_block(const scene::View& view, const Resolution&
   return block;
 }
 
-Resolution pixel_exact(const scene::View& view, Ranges ranges, ThetaCells theta_cells) {
-  const Axes axes = axes_of(view);
+Resolution pixel_exact(const scene::View& view, const scene::Light& light, Ranges ranges,
+                       ThetaCells theta_cells) {
+  const Axes axes = axes_of(view, light);
   const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
   const Range alpha = alpha_of_grid(camera, axes, ranges);
   const double corner = 1.0 + camera.half_width * camera.half_width + camera.half_height * camera.half_height;

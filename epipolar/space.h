@@ -48,12 +48,13 @@ enum class ThetaCells {
   equal,   ///< the paper's
 };
 
-/// The uniform block of a view.
-shaders::EpipolarBlock epipolar_block(const scene::View& view, const Resolution& resolution, Ranges ranges,
-                                      ThetaCells theta_cells);
+/// The uniform block of a view and one of its lights.
+shaders::EpipolarBlock epipolar_block(const scene::View& view, const scene::Light& light,
+                                      const Resolution& resolution, Ranges ranges, ThetaCells theta_cells);
 
-/// The counts of a view's grid whose rows are nowhere more than a pixel apart in α and θ; φ is left at its
-/// default.
-Resolution pixel_exact(const scene::View& view, Ranges ranges, ThetaCells theta_cells);
+/// The counts of a grid for a view and one of its lights whose rows are nowhere more than a pixel apart in α
+/// and θ; φ is left at its default.
+Resolution pixel_exact(const scene::View& view, const scene::Light& light, Ranges ranges,
+                       ThetaCells theta_cells);
 
 }  // namespace airlight::epipolar

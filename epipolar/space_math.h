@@ -1,6 +1,6 @@
 #pragma once
 
-#include "frame/view_block.h"
+#include "frame/blocks.h"
 
 namespace airlight::shaders {
 #include "epipolar/conservative.glsl"

@@ -7,26 +7,34 @@
 namespace airlight::epipolar {
 namespace {
 
-gpu::Program make_program(const VolumeSettings& volume) {
-  const auto grid = resolution_constants(volume.resolution);
-  const bool whole_voxels = volume.populate == Populate::conservative;
+gpu::Program make_program(const VolumeOptions& options) {
+  const auto grid = resolution_constants(options.resolution);
+  const bool whole_voxels = options.populate == Populate::conservative;
   return gpu::Program::compute(k_surface_lookup_comp,
                                std::array{grid[0], grid[1], grid[2], gpu::Constant(3, whole_voxels ? 1 : 0)});
 }
 
 }  // namespace
 
-SurfaceLookup::SurfaceLookup(const gpu::Context& context, const VolumeSettings& volume)
-    : volume_(context, volume), program_(make_program(volume)) {}
+SurfaceLookup::SurfaceLookup(const gpu::Context& context, const VolumeOptions& options)
+    : volume_(context, options), program_(make_program(options)) {}
 
 void SurfaceLookup::query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) {
   volume_.find_ranges(inputs);
   volume_.fill(inputs);
   inputs.timer.time("surface_query", [&] {
-    inputs.surfaces.bind_sampler(0);
-    visibility.bind_image(0);
+    inputs.surfaces.bind_sampler(shaders::k_surface_unit);
+    visibility.bind_image(shaders::k_output_image);
     program_.dispatch({inputs.view.size, 1}, {8, 8, 1});
   });
+}
+
+frame::SurfaceMethod surface_lookup_method() {
+  return frame::describe<frame::SurfaceShadow, VolumeOptions>(
+      "vsv", "one bit of an epipolar voxelized shadow volume a pixel: to look at the volume", {},
+      volume_options(), [](const gpu::Context& context, const VolumeOptions& options) {
+        return std::make_unique<SurfaceLookup>(context, options);
+      });
 }
 
 }  // namespace airlight::epipolar

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "epipolar/volume.h"
-#include "frame/methods.h"
+#include "frame/method.h"
 #include "gpu/program.h"
 
 namespace airlight::epipolar {
@@ -17,9 +17,8 @@ namespace airlight::epipolar {
 class SurfaceLookup : public frame::SurfaceShadow {
  public:
   /// @throws scene::Error as Grid.
-  SurfaceLookup(const gpu::Context& context, const VolumeSettings& volume);
+  SurfaceLookup(const gpu::Context& context, const VolumeOptions& options);
 
-  bool needs_shadow_map() const override { return volume_.needs_shadow_map(); }
   void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override;
   std::map<std::string, std::int64_t> bytes() const override { return volume_.bytes(); }
 
@@ -27,5 +26,7 @@ class SurfaceLookup : public frame::SurfaceShadow {
   ShadowVolume volume_;
   gpu::Program program_;
 };
+
+frame::SurfaceMethod surface_lookup_method();
 
 }  // namespace airlight::epipolar

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "epipolar/space_math.h"
+
 namespace airlight::epipolar {
 namespace {
 
@@ -31,7 +33,7 @@ void TriangleQueue::run(std::uint32_t first, std::uint32_t count) {
   const std::uint32_t longest = std::min(count, k_at_once);
   const auto bytes = static_cast<std::int64_t>(sizeof(QueueHead) + 4 * std::size_t{longest});
   if (queue_.bytes() < bytes) queue_ = gpu::Buffer(bytes);
-  queue_.bind_storage(8);
+  queue_.bind_storage(shaders::k_queue_storage);
   for (std::uint32_t done = 0; done < count; done += k_at_once) {
     const std::uint32_t part = std::min(count - done, k_at_once);
     const QueueHead head = {{k_row, 0, 1}, 0, {k_row, 0, k_groups_of_most}, 0, first + done, part};

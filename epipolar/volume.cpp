@@ -1,5 +1,6 @@
 #include "epipolar/volume.h"
 
+#include <algorithm>
 #include <bit>
 #include <utility>
 
@@ -11,44 +12,134 @@
 
 namespace airlight::epipolar {
 
-Scan scan_of(const VolumeSettings& settings) {
-  const Scan fastest = settings.populate == Populate::screen_space ? Scan::column : Scan::fused;
-  return settings.scan.value_or(fastest);
+namespace {
+
+/// `given` with what is automatic, 0, taken from `automatic`.
+Resolution resolved(Resolution given, const Resolution& automatic) {
+  for (const auto count : {&Resolution::alpha, &Resolution::theta, &Resolution::phi})
+    if (given.*count == 0) given.*count = automatic.*count;
+  return given;
 }
 
-void validate(const VolumeSettings& settings) {
-  validate(settings.resolution);
-  if (settings.populate == Populate::screen_space && scan_of(settings) == Scan::fused) {
+}  // namespace
+
+Scan VolumeOptions::used_scan() const {
+  return scan.value_or(populate == Populate::screen_space ? Scan::column : Scan::fused);
+}
+
+void VolumeOptions::validate() const {
+  epipolar::validate(resolved(resolution, {}));
+  if (populate == Populate::screen_space && used_scan() == Scan::fused) {
     throw scene::Error(scene::ExitCode::usage, "scan=fused",
                        "the screen-space voxelization sets bits, and this scan reads none",
                        "use column or multi-pass");
   }
 }
 
-ShadowVolume::ShadowVolume(const gpu::Context& context, const VolumeSettings& settings)
-    : settings_(settings),
-      grid_(context, settings.resolution),
-      planes_(gpu::Program::compute(k_planes_comp, resolution_constants(settings.resolution))),
+void VolumeOptions::fit(const scene::View& view) {
+  Resolution automatic;
+  for (const scene::Light& light : view.lights) {
+    const Resolution exact = pixel_exact(view, light, ranges, theta_cells);
+    automatic.alpha = &light == &view.lights[0] ? exact.alpha : std::max(automatic.alpha, exact.alpha);
+    automatic.theta = &light == &view.lights[0] ? exact.theta : std::max(automatic.theta, exact.theta);
+  }
+  resolution = resolved(resolution, automatic);
+}
+
+std::vector<frame::Option> volume_options() {
+  using frame::Option;
+  std::vector<Option> options = {
+      frame::word_option<VolumeOptions, Populate>(
+          {.name = "populate",
+           .meaning = "what fills the grid",
+           .quality = "shadow-map errs either way, conservative never leaks, screen-space needs closed parts",
+           .cost = "shadow-map is the cheapest, the others grow with the triangles",
+           .sweep = {"shadow-map", "conservative"},
+           .is_common = true},
+          {{"shadow-map", "one look-up a light ray"},
+           {"conservative", "every voxel that a triangle touches"},
+           {"screen-space", "the inside of watertight parts"}},
+          &VolumeOptions::populate),
+      frame::word_option<VolumeOptions, Scan>(
+          {.name = "scan",
+           .meaning = "how shadow is drawn out along light rays",
+           .quality = "none: the same bits",
+           .cost = "fused only writes; column reads and writes once; multi-pass moves five times the grid",
+           .sweep = {"fused", "column", "multi-pass"}},
+          {{"fused", "one pass that only writes; default but for screen-space"},
+           {"column", "one pass over set bits"},
+           {"multi-pass", "the paper's"}},
+          [](const VolumeOptions& volume) { return volume.used_scan(); },
+          [](VolumeOptions& volume, Scan scan) { volume.scan = scan; }),
+      frame::word_option<VolumeOptions, Ranges>(
+          {.name = "ranges",
+           .meaning = "angles that the grid covers",
+           .quality = "what is not seen takes no cells from what is",
+           .cost = "none",
+           .sweep = {"frame", "full"}},
+          {{"frame", "what is seen"}, {"alpha-phi", "the paper's: all theta"}, {"full"}},
+          &VolumeOptions::ranges)};
+  const frame::Counts any = {.most = k_largest_count, .automatic = "a pixel apart"};
+  const frame::Counts whole_texels = {
+      .least = 128, .most = k_largest_count, .multiple_of = 128, .automatic = "512"};
+  for (Option& count : frame::options_of(
+           &VolumeOptions::resolution, {frame::count_option({.name = "alpha",
+                                       .meaning = "cells of the grid along the view angle",
+                                       .quality = "too few show as jagged shadow edges",
+                                       .cost = "memory, scan",
+                                       .sweep = {"64", "128", "256", "512"},
+                                       .is_common = true},
+                                                            any, &Resolution::alpha),
+                                        frame::count_option({.name = "theta",
+                                        .meaning = "half-planes of the grid about the axis from eye to light",
+                                        .quality = "too few show as streaks around the epipole",
+                                        .cost = "memory, populate, scan",
+                                        .sweep = {"256", "512", "1024", "2048"},
+                                        .is_common = true},
+                                                            any, &Resolution::theta),
+                                        frame::count_option({.name = "phi",
+                                        .meaning = "cells of the grid along the light angle",
+                                        .quality = "too few show as noise and missed thin occluders",
+                                        .cost = "memory, populate, scan, integrate",
+                                        .sweep = {"128", "256", "512", "1024"},
+                                        .is_common = true},
+                                                            whole_texels, &Resolution::phi)}))
+    options.push_back(std::move(count));
+  options.push_back(frame::word_option<VolumeOptions, ThetaCells>(
+      {.name = "theta-cells",
+       .meaning = "half-planes of the grid",
+       .quality = "fitted ones serve the pixels far from the epipole better",
+       .cost = "none",
+       .sweep = {"fitted", "equal"}},
+      {{"fitted", "denser where they reach farther"}, {"equal", "the paper's"}},
+      &VolumeOptions::theta_cells));
+  return options;
+}
+
+ShadowVolume::ShadowVolume(const gpu::Context& context, const VolumeOptions& options)
+    : options_(options),
+      grid_(context, options.resolution),
+      planes_(gpu::Program::compute(k_planes_comp, resolution_constants(options.resolution))),
       phi_range_(gpu::Program::compute(k_phi_range_comp)),
-      scatter_(gpu::Program::compute(k_scatter_comp, resolution_constants(settings.resolution))) {
-  validate(settings);
-  switch (settings.populate) {
+      scatter_(gpu::Program::compute(k_scatter_comp, resolution_constants(options.resolution))) {
+  options.validate();
+  switch (options.populate) {
     case Populate::shadow_map:
-      populate_shadow_map_.emplace(settings.resolution);
+      populate_shadow_map_.emplace(options.resolution);
       break;
     case Populate::conservative:
-      populate_conservative_.emplace(settings.resolution);
+      populate_conservative_.emplace(options.resolution);
       break;
     case Populate::screen_space:
       populate_screen_space_.emplace(context, grid_);
       break;
   }
-  switch (scan_of(settings)) {
+  switch (options.used_scan()) {
     case Scan::fused:
-      fused_scan_.emplace(settings.resolution);
+      fused_scan_.emplace(options.resolution);
       break;
     case Scan::column:
-      or_scan_.emplace(settings.resolution);
+      or_scan_.emplace(options.resolution);
       break;
     case Scan::multi_pass:
       mip_scan_.emplace(context, grid_);
@@ -58,23 +149,23 @@ ShadowVolume::ShadowVolume(const gpu::Context& context, const VolumeSettings& se
 
 shaders::EpipolarBlock ShadowVolume::find_ranges(const frame::FrameInputs& inputs) const {
   shaders::EpipolarBlock block =
-      epipolar_block(inputs.view, settings_.resolution, settings_.ranges, settings_.theta_cells);
+      epipolar_block(inputs.view, inputs.light(), options_.resolution, options_.ranges, options_.theta_cells);
   if (populate_screen_space_) {
     // It finds occluders on the grid's own view rays, those nearer the axis than the image included.
-    const float count = static_cast<float>(settings_.resolution.alpha);
+    const float count = static_cast<float>(options_.resolution.alpha);
     block.alpha_step += std::exchange(block.alpha_min, 0.0f) / count;
   }
   inputs.timer.time("ranges", [&] {
     grid_.block().write(&block, sizeof block);
     grid_.phi_range().clear();
     grid_.bind();
-    grid_.planes().bind_storage(9);
-    planes_.dispatch({settings_.resolution.theta, 1, 1}, {64, 1, 1});
-    if (settings_.ranges == Ranges::full) {
+    grid_.planes().bind_storage(shaders::k_planes_storage);
+    planes_.dispatch({options_.resolution.theta, 1, 1}, {64, 1, 1});
+    if (options_.ranges == Ranges::full) {
       const auto order_of_pi = std::bit_cast<std::uint32_t>(2.0f);
       grid_.phi_range().write(&order_of_pi, sizeof order_of_pi);
     } else {
-      inputs.surfaces.bind_sampler(0);
+      inputs.surfaces.bind_sampler(shaders::k_surface_unit);
       const glm::uvec2 size = inputs.view.size;
       phi_range_.dispatch({size.x, (size.y + 31) / 32, 1}, {64, 1, 1});
     }
@@ -83,12 +174,12 @@ shaders::EpipolarBlock ShadowVolume::find_ranges(const frame::FrameInputs& input
 }
 
 void ShadowVolume::fill_unscanned(const frame::FrameInputs& inputs, bool with_bits) {
-  if (populate_screen_space_) populate_screen_space_->run(inputs.context, grid_, inputs.scene);
-  if (populate_shadow_map_) populate_shadow_map_->run(grid_, *inputs.shadow_map);
+  if (populate_screen_space_) populate_screen_space_->run(inputs, grid_);
+  if (populate_shadow_map_) populate_shadow_map_->run(grid_, inputs.shadow_map());
   if (populate_conservative_) populate_conservative_->run(grid_, inputs.scene);
   if (with_bits && !populate_screen_space_) {
     grid_.bits().clear();
-    dispatch_planes(scatter_, grid_, settings_.resolution.phi / 32, {16, 4});
+    dispatch_planes(scatter_, grid_, options_.resolution.phi / 32, {16, 4});
   }
 }
 

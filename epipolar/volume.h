@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "epipolar/fused_scan.h"
 #include "epipolar/grid.h"
@@ -12,7 +13,7 @@
 #include "epipolar/populate_screen_space.h"
 #include "epipolar/populate_shadow_map.h"
 #include "epipolar/space.h"
-#include "frame/methods.h"
+#include "frame/option.h"
 
 namespace airlight::epipolar {
 
@@ -31,27 +32,36 @@ enum class Scan {
 };
 
 /// How a shadow volume is made.
-struct VolumeSettings {
-  Resolution resolution = {};
+struct VolumeOptions {
+  Resolution resolution = {};  ///< a count of 0 is automatic: see `fit`
   Populate populate = Populate::shadow_map;
   std::optional<Scan> scan = {};  ///< the fastest if none
   Ranges ranges = Ranges::frame;
   ThetaCells theta_cells = ThetaCells::fitted;
+
+  /// The scan that the options stand for.
+  Scan used_scan() const;
+
+  /// @throws scene::Error (usage) when the options contradict each other.
+  void validate() const;
+
+  /// Gives automatic counts their value: rows nowhere more than a pixel apart, for the light that needs the
+  /// most; the default number of samples.
+  void fit(const scene::View& view);
+
+  bool needs_closed_parts() const { return populate == Populate::screen_space; }
 };
 
-/// The scan that the settings stand for.
-Scan scan_of(const VolumeSettings& settings);
-
-/// @throws scene::Error (usage) when the settings contradict each other.
-void validate(const VolumeSettings& settings);
+/// What there is to choose, for the methods that have a volume.
+std::vector<frame::Option> volume_options();
 
 /// The voxelized shadow volume of a frame: ranges → populate → scan. Afterwards the bit of voxel (α_i, θ_j,
 /// φ_k) says whether it is in shadow. Based on: Wyman, "Voxelized Shadow Volumes", HPG 2011, section 2.2.
 class ShadowVolume {
  public:
-  ShadowVolume(const gpu::Context& context, const VolumeSettings& settings);
-
-  bool needs_shadow_map() const { return settings_.populate == Populate::shadow_map; }
+  /// @throws scene::Error (usage) where options contradict each other or are still automatic; (driver) as
+  /// Grid
+  ShadowVolume(const gpu::Context& context, const VolumeOptions& options);
 
   /// Finds the ranges of α, θ and φ for a view, and cuts φ equally. Times `ranges`. Leaves the grid bound.
   /// @returns what it wrote to the grid's block
@@ -69,7 +79,7 @@ class ShadowVolume {
  private:
   void fill_unscanned(const frame::FrameInputs& inputs, bool with_bits);
 
-  VolumeSettings settings_;
+  VolumeOptions options_;
   Grid grid_;
   gpu::Program planes_, phi_range_, scatter_;
   std::optional<PopulateShadowMap> populate_shadow_map_;

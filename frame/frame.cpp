@@ -3,55 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
-#include "frame/view_block.h"
+#include "frame/blocks.h"
 #include "scene/error.h"
-#include "scene/light_texture.h"
 
 #include "spirv/frame/composite_comp.h"
-
-#include <epoxy/gl.h>
 
 namespace airlight::frame {
 namespace {
 
 using scene::Error;
 using scene::ExitCode;
-
-/// The depth at which a pyramid at `apex` starts to order surfaces. As large as the scene allows, because
-/// depth is interpolated on triangles that reach up to it; not smaller than 1e-4 of the distance between eye
-/// and light, where single precision on a triangle that passes the apex would leave no digits.
-float near_depth(const SceneBuffers& scene, glm::dvec3 apex, double eye_light_distance) {
-  // The nearest point may lie in the corner of a cube face, where depth is 1/√3 of distance.
-  const double nearest = 0.5 * scene.distance_to(apex);
-  return static_cast<float>(std::clamp(nearest, 1e-4 * eye_light_distance, eye_light_distance));
-}
-
-shaders::ViewBlock view_block(const SceneBuffers& scene, const scene::View& view,
-                              const scene::CameraFrame& camera, int shadow_map_size) {
-  const glm::dvec3 to_light = view.lights[0].position - camera.eye;
-  const double eye_light_distance = glm::length(to_light);
-  const glm::vec3 eye_high(camera.eye);
-  shaders::ViewBlock block{};
-  block.eye_high = eye_high;
-  block.eye_low = glm::vec3(camera.eye - glm::dvec3(eye_high));
-  block.half_width = static_cast<float>(camera.half_width);
-  block.half_height = static_cast<float>(camera.half_height);
-  block.right = glm::vec3(camera.right);
-  block.up = glm::vec3(camera.up);
-  block.forward = glm::vec3(camera.forward);
-  block.image_width = static_cast<float>(view.size.x);
-  block.image_height = static_cast<float>(view.size.y);
-  block.eye_near = near_depth(scene, camera.eye, eye_light_distance);
-  block.light = glm::vec3(to_light);
-  block.light_near = near_depth(scene, view.lights[0].position, eye_light_distance);
-  block.intensity = view.lights[0].intensity;
-  block.shadow_map_size = static_cast<float>(shadow_map_size);
-  block.sigma_t = view.medium.sigma_s + view.medium.sigma_a;
-  return block;
-}
 
 void require_finite(const std::vector<glm::vec3>& image, glm::ivec2 size, const char* name) {
   const auto bad = std::find_if(image.begin(), image.end(), [](const glm::vec3& value) {
@@ -71,61 +36,36 @@ std::vector<glm::vec3> read_rgb(const gpu::Texture& texture, const char* name) {
   return rgb;
 }
 
-gpu::Program compositor(bool is_light_textured) {
-  return gpu::Program::compute(k_composite_comp, std::array{gpu::Constant(0, is_light_textured)});
+std::vector<float> read_visibility(const gpu::Texture& texture) {
+  if (texture.format() == gpu::Format::r32f) return texture.read<float>();
+  std::vector<float> means;
+  for (const glm::vec4& rgba : texture.read<glm::vec4>()) means.push_back((rgba.r + rgba.g + rgba.b) / 3.0f);
+  return means;
+}
+
+double distance_to_nearest_light(const scene::View& view) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const scene::Light& light : view.lights)
+    nearest = std::min(nearest, glm::distance(light.position, view.camera.eye));
+  return nearest;
+}
+
+template <typename Block>
+void write_block(const gpu::Buffer& buffer, const Block& block, unsigned binding) {
+  buffer.write(&block, sizeof block);
+  buffer.bind_uniform(binding);
 }
 
 }  // namespace
 
-void NoShadow::query(const FrameInputs& inputs, const gpu::Texture& visibility) {
-  inputs.timer.time("surface_query", [&] {
-    const float lit = 1.0f;
-    glClearTexImage(visibility.name(), 0, GL_RED, GL_FLOAT, &lit);
-  });
-}
-
-void NoAirlight::integrate(const FrameInputs&, const gpu::Texture& radiance) {
-  glClearTexImage(radiance.name(), 0, GL_RGBA, GL_FLOAT, nullptr);
-}
-
 Frame::Frame(gpu::Context& context, const scene::Geometry& geometry, int shadow_map_size)
     : context_(context),
-      scene_(context, geometry),
-      shadow_map_size_(shadow_map_size),
-      view_block_(sizeof(shaders::ViewBlock)),
-      composite_(compositor(false)) {}
+      resources_(context, geometry, shadow_map_size),
+      camera_block_(sizeof(shaders::CameraBlock)),
+      light_block_(sizeof(shaders::LightBlock)),
+      medium_block_(sizeof(shaders::MediumBlock)) {}
 
-void Frame::load_light_texture(const std::shared_ptr<const scene::LightTexture>& texture) {
-  if (texture == light_texture_) return;
-  if (texture) {
-    const glm::ivec2 size = texture->size();
-    const int limit = context_.limits().max_texture_size;
-    if (std::max(size.x, size.y) > limit) {
-      throw Error(ExitCode::driver, texture->name(),
-                  fmt::format("{}x{} texels are more than this driver's {} (GL_MAX_TEXTURE_SIZE)", size.x,
-                              size.y, limit),
-                  "scale the image down");
-    }
-    std::vector<glm::vec4> texels;
-    texels.reserve(texture->texels().size());
-    for (const glm::vec3& texel : texture->texels()) texels.emplace_back(texel, 0.0f);
-    light_texture_texels_ = gpu::Texture(gpu::Format::rgba32f, size);
-    light_texture_texels_.write(texels.data());
-    light_texture_texels_.sample_bilinearly_around();
-  } else {
-    light_texture_texels_ = {};
-  }
-  if ((texture == nullptr) != (light_texture_ == nullptr)) composite_ = compositor(texture != nullptr);
-  light_texture_ = texture;
-}
-
-void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airlight& airlight,
-                   gpu::StageTimer& timer) {
-  scene::validate(view);
-  const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
-
-  // Make what this frame needs and the last one did not have.
-  load_light_texture(view.lights[0].texture);
+void Frame::require_images(const scene::View& view, gpu::Format visibility_format) {
   if (!gbuffer_ || radiance_.size() != view.size) {
     const int limit = std::min(context_.limits().max_texture_size, context_.limits().max_viewport);
     if (std::max(view.size.x, view.size.y) > limit) {
@@ -135,43 +75,75 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
                   "ask for a smaller image");
     }
     gbuffer_.emplace(view.size);
-    visibility_ = gpu::Texture(gpu::Format::r32f, view.size);
+    visibility_.clear();
+    light_airlight_ = {};
     airlight_ = gpu::Texture(gpu::Format::rgba32f, view.size);
     radiance_ = gpu::Texture(gpu::Format::rgba32f, view.size);
   }
-  const bool needs_shadow_map = surface_shadow.needs_shadow_map() || airlight.needs_shadow_map();
-  if (needs_shadow_map && !shadow_map_) shadow_map_.emplace(context_, shadow_map_size_);
-
-  timer.time("surfaces", [&] {
-    const shaders::ViewBlock block = view_block(scene_, view, camera, shadow_map_size_);
-    view_block_.write(&block, sizeof block);
-    view_block_.bind_uniform(0);
-    gbuffer_->draw(scene_, camera);
-  });
-  if (needs_shadow_map) {
-    timer.time("shadow_map", [&] { shadow_map_->draw(scene_, view.lights[0].position); });
+  visibility_.resize(view.lights.size());
+  for (gpu::Texture& visibility : visibility_) {
+    if (visibility.size() == view.size && visibility.format() == visibility_format) continue;
+    visibility = gpu::Texture(visibility_format, view.size);
+    // The compositor multiplies with RGB.
+    if (visibility_format == gpu::Format::r32f) visibility.sample_as_grey();
   }
-  const FrameInputs inputs{.context = context_,
-                           .view = view,
-                           .scene = scene_,
-                           .triangles = gbuffer_->triangles(),
-                           .surfaces = gbuffer_->surfaces(),
-                           .shadow_map = needs_shadow_map ? &*shadow_map_ : nullptr,
-                           .light_texture = light_texture_ ? &light_texture_texels_ : nullptr,
-                           .timer = timer};
-  surface_shadow.query(inputs, visibility_);  // times its own stages, …
-  airlight.integrate(inputs, airlight_);      // … and so does airlight
-  timer.time("composite", [&] {
-    scene_.bind_samplers();
-    gbuffer_->triangles().bind_sampler(0);
-    gbuffer_->surfaces().bind_sampler(1);
-    visibility_.bind_sampler(2);
-    airlight_.bind_sampler(3);
-    if (light_texture_) light_texture_texels_.bind_sampler(14);
-    radiance_.bind_image(0);
-    composite_.dispatch({view.size, 1}, {8, 8, 1});
+  if (view.lights.size() > 1 && light_airlight_.size() != view.size)
+    light_airlight_ = gpu::Texture(gpu::Format::rgba32f, view.size);
+}
+
+void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airlight& airlight,
+                   gpu::StageTimer& timer) {
+  scene::validate(view);
+  require_images(view, surface_shadow.visibility_format());
+  resources_.begin_frame();
+  const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
+  const SceneBuffers& scene = resources_.scene();
+
+  // What the camera sees.
+  timer.time("surfaces", [&] {
+    write_block(camera_block_, camera_block(scene, camera, view.size, distance_to_nearest_light(view)),
+                shaders::k_camera_block);
+    write_block(medium_block_, medium_block(view.medium), shaders::k_medium_block);
+    gbuffer_->draw(scene, camera);
   });
+
+  // What each light adds.
+  for (std::size_t i = 0; i < view.lights.size(); ++i) {
+    resources_.begin_light(view.lights[i]);
+    write_block(light_block_, light_block(scene, view.lights[i], camera.eye, resources_.shadow_map_size()),
+                shaders::k_light_block);
+    const FrameInputs inputs{.context = context_,
+                             .view = view,
+                             .light_index = i,
+                             .scene = scene,
+                             .triangles = gbuffer_->triangles(),
+                             .surfaces = gbuffer_->surfaces(),
+                             .resources = resources_,
+                             .timer = timer};
+    const gpu::Texture& light_airlight = i == 0 ? airlight_ : light_airlight_;
+    surface_shadow.query(inputs, visibility_[i]);  // times its own stages, …
+    airlight.integrate(inputs, light_airlight);    // … and so does airlight
+    timer.time("composite", [&] { composite(visibility_[i], light_airlight, i > 0); });
+  }
   context_.check();
+}
+
+void Frame::composite(const gpu::Texture& visibility, const gpu::Texture& airlight, bool adds) {
+  const gpu::Texture* light_texture = resources_.light_texture();
+  const bool is_textured = light_texture != nullptr;
+  if (!composite_.contains({is_textured, adds})) {
+    composite_[{is_textured, adds}] = gpu::Program::compute(
+        k_composite_comp, std::array{gpu::Constant(0, is_textured), gpu::Constant(1, adds)});
+  }
+  resources_.scene().bind_samplers();
+  gbuffer_->triangles().bind_sampler(shaders::k_triangle_unit);
+  gbuffer_->surfaces().bind_sampler(shaders::k_surface_unit);
+  visibility.bind_sampler(shaders::k_visibility_unit);
+  airlight.bind_sampler(shaders::k_airlight_unit);
+  if (light_texture) light_texture->bind_sampler(shaders::k_light_texture_unit);
+  radiance_.bind_image(shaders::k_output_image);
+  airlight_.bind_image(shaders::k_sum_image);
+  composite_[{is_textured, adds}].dispatch({radiance_.size(), 1}, {8, 8, 1});
 }
 
 FrameImages Frame::read() const {
@@ -181,19 +153,14 @@ FrameImages Frame::read() const {
   images.airlight = read_rgb(airlight_, "airlight");
   for (const glm::vec4& surface : gbuffer_->surfaces().read<glm::vec4>())
     images.distance.push_back(surface.w);
-  images.visibility = visibility_.read<float>();
-  for (std::size_t i = 0; i < images.visibility.size(); ++i) {
-    if (images.distance[i] == 0.0f) images.visibility[i] = 0.0f;
+  for (const gpu::Texture& texture : visibility_) {
+    std::vector<float>& visibility = images.visibility.emplace_back(read_visibility(texture));
+    for (std::size_t i = 0; i < visibility.size(); ++i) {
+      if (images.distance[i] == 0.0f) visibility[i] = 0.0f;
+    }
   }
   context_.check();
   return images;
-}
-
-std::map<std::string, std::int64_t> Frame::bytes() const {
-  std::map<std::string, std::int64_t> bytes = {{"scene", scene_.bytes()}};
-  if (shadow_map_) bytes["shadow_map"] = shadow_map_->depth().bytes();
-  if (light_texture_) bytes["light_texture"] = light_texture_texels_.bytes();
-  return bytes;
 }
 
 }  // namespace airlight::frame

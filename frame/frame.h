@@ -1,13 +1,15 @@
 #pragma once
 
-#include <memory>
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "frame/gbuffer.h"
 #include "frame/methods.h"
-#include "frame/scene_buffers.h"
-#include "frame/shadow_map.h"
+#include "frame/resources.h"
+#include "gpu/buffer.h"
+#include "gpu/program.h"
 
 namespace airlight::frame {
 
@@ -16,17 +18,19 @@ struct FrameImages {
   glm::ivec2 size{0};
   std::vector<glm::vec3> radiance;  ///< surfaces and airlight [W/(m² sr)]
   std::vector<glm::vec3> airlight;  ///< airlight alone [W/(m² sr)]
-  std::vector<float>
-      visibility;  ///< 1 where a surface sees the light, 0 in shadow and where no surface is seen
+
+  /// For each light the part of it that arrives at each surface: 1 where it sees the light, 0 in shadow and
+  /// where no surface is seen; the mean over RGB where occluders let colours through.
+  std::vector<std::vector<float>> visibility;
   std::vector<float> distance;  ///< along the view ray [m], 0 where no surface is seen
 };
 
 /// Renders frames of one scene:
-/// G-buffer → shadow map → surface shadow → airlight → composite.
+/// G-buffer → for each light: shadow map → surface shadow → airlight → composite.
 class Frame {
  public:
   /// @param geometry kept by reference: it must outlive the frame
-  /// @param shadow_map_size side of a cube face [texels]; used only by methods that need a shadow map
+  /// @param shadow_map_size side of a cube face [texels]; used only by methods that ask for a shadow map
   Frame(gpu::Context& context, const scene::Geometry& geometry, int shadow_map_size);
 
   /// Issues all work of one frame to the GPU, without waiting for it where `timer` is off.
@@ -39,22 +43,23 @@ class Frame {
   /// @throws scene::Error (driver) when it holds NaN or infinity: never shown as a colour.
   FrameImages read() const;
 
-  std::map<std::string, std::int64_t> bytes() const;
+  /// GPU memory of what the last frame used beside its methods' own, by name.
+  std::map<std::string, std::int64_t> bytes() const { return resources_.bytes(); }
 
  private:
-  /// Brings the light's texture to the GPU and makes the compositor fit for it.
-  void load_light_texture(const std::shared_ptr<const scene::LightTexture>& texture);
+  void require_images(const scene::View& view, gpu::Format visibility_format);
+  void composite(const gpu::Texture& visibility, const gpu::Texture& airlight, bool adds);
 
   gpu::Context& context_;
-  SceneBuffers scene_;
-  int shadow_map_size_;
-  std::optional<ShadowMap> shadow_map_;
-  gpu::Buffer view_block_;
-  gpu::Program composite_;
-  std::shared_ptr<const scene::LightTexture> light_texture_;  ///< the one on the GPU
-  gpu::Texture light_texture_texels_;
+  Resources resources_;
+  gpu::Buffer camera_block_, light_block_, medium_block_;
+  std::map<std::pair<bool, bool>, gpu::Program> composite_;  ///< by: the light is textured, it adds
+
   std::optional<GBuffer> gbuffer_;
-  gpu::Texture visibility_, airlight_, radiance_;
+  std::vector<gpu::Texture> visibility_;  ///< one a light
+  gpu::Texture airlight_;                 ///< of all lights
+  gpu::Texture light_airlight_;           ///< of one light after the first
+  gpu::Texture radiance_;
 };
 
 }  // namespace airlight::frame

@@ -1,5 +1,7 @@
 #include "frame/gbuffer.h"
 
+#include "frame/blocks.h"
+
 #include "spirv/frame/gbuffer_frag.h"
 #include "spirv/frame/gbuffer_vert.h"
 #include "spirv/frame/surfaces_comp.h"
@@ -24,8 +26,8 @@ void GBuffer::draw(const SceneBuffers& scene, const scene::CameraFrame& camera) 
               .half_width = camera.half_width,
               .half_height = camera.half_height});
   scene.bind_samplers();
-  triangles_.bind_sampler(0);
-  surfaces_.bind_image(0);
+  triangles_.bind_sampler(shaders::k_triangle_unit);
+  surfaces_.bind_image(shaders::k_output_image);
   resolve_.dispatch({triangles_.size(), 1}, {8, 8, 1});
 }
 

@@ -12,7 +12,7 @@ class GBuffer {
  public:
   explicit GBuffer(glm::ivec2 size);
 
-  /// Draws the scene. The view's uniform block is bound.
+  /// Draws the scene. The camera's block is bound.
   void draw(const SceneBuffers& scene, const scene::CameraFrame& camera) const;
 
   const gpu::Texture& triangles() const { return triangles_; }  ///< r32ui: number + 1, 0 for none

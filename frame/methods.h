@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "gpu/buffer.h"
+#include "frame/resources.h"
 #include "gpu/context.h"
 #include "gpu/texture.h"
 #include "gpu/timer.h"
@@ -13,33 +13,39 @@
 
 namespace airlight::frame {
 
-class SceneBuffers;
-class ShadowMap;
-
-/// What the methods of a frame read. The view's uniform block is bound at uniform binding 0
-/// (shaders/frame/view.glsl).
+/// What the methods of a frame read, for one of its lights. The blocks of camera, light and medium are bound
+/// (shaders/frame/uniforms.glsl).
 struct FrameInputs {
   gpu::Context& context;
   const scene::View& view;
+  std::size_t light_index;  ///< in view.lights
   const SceneBuffers& scene;
   const gpu::Texture& triangles;  ///< r32ui: number of the triangle seen + 1, 0 for none
-  const gpu::Texture&
-      surfaces;  ///< rgba32f: unit normal towards the eye, distance along the unit view ray [m]; 0 for none
-  const ShadowMap* shadow_map;  ///< nullptr unless a method needs it
-  const gpu::Texture*
-      light_texture;  ///< rgba32f, by direction (light_texture.glsl); nullptr where the light has none
+  const gpu::Texture& surfaces;   ///< rgba32f: unit normal towards the eye, distance along the unit view ray
+                                  ///< [m]; 0 for none
+  Resources& resources;
   gpu::StageTimer& timer;
+
+  const scene::Light& light() const { return view.lights[light_index]; }
+  const scene::Geometry& geometry() const { return resources.geometry(); }
+
+  // What is made when it is first asked for: see Resources.
+  const ShadowMap& shadow_map() const { return resources.shadow_map(timer); }
+  const gpu::Texture* light_texture() const { return resources.light_texture(); }
+  const scene::Components& components() const { return resources.components(timer); }
 };
 
 /// A method of surface shadow: one of the two places where a method plugs into the frame.
 class SurfaceShadow {
  public:
   virtual ~SurfaceShadow() = default;
-  virtual bool needs_shadow_map() const { return false; }
 
-  /// Writes 1 where a surface sees the light, 0 where it does not. Times its stages, `surface_query` among
-  /// them.
-  /// @param visibility r32f, of the image's size; what it holds where no surface is seen does not matter
+  /// Of the image that `query` writes: r32f, or rgba32f of a method whose occluders let colours through.
+  virtual gpu::Format visibility_format() const { return gpu::Format::r32f; }
+
+  /// Writes the part of the light that arrives at each surface: 1 where it sees the light, 0 where it does
+  /// not. Times its stages, `surface_query` among them.
+  /// @param visibility of the image's size; what it holds where no surface is seen does not matter
   virtual void query(const FrameInputs& inputs, const gpu::Texture& visibility) = 0;
 
   /// Memory of its own on the GPU, by name.
@@ -58,7 +64,6 @@ struct DebugImage {
 class Airlight {
  public:
   virtual ~Airlight() = default;
-  virtual bool needs_shadow_map() const { return false; }
 
   /// Writes the light scattered once towards the eye along each view ray, RGB [W/(m² sr)]. Times its stages.
   /// @param radiance rgba32f, of the image's size
@@ -70,18 +75,6 @@ class Airlight {
   /// Pictures of what `integrate`, called just before with the same inputs, left on the GPU. They may cost
   /// it: the next call is to `integrate`.
   virtual std::vector<DebugImage> debug_images(const FrameInputs&) { return {}; }
-};
-
-/// `none`: every surface is lit.
-class NoShadow : public SurfaceShadow {
- public:
-  void query(const FrameInputs& inputs, const gpu::Texture& visibility) override;
-};
-
-/// `none`: no airlight.
-class NoAirlight : public Airlight {
- public:
-  void integrate(const FrameInputs& inputs, const gpu::Texture& radiance) override;
 };
 
 }  // namespace airlight::frame

@@ -1,5 +1,9 @@
 #include "frame/scene_buffers.h"
 
+#include "frame/blocks.h"
+
+#include <atomic>
+
 #include <epoxy/gl.h>
 
 namespace airlight::frame {
@@ -10,10 +14,15 @@ gpu::Buffer upload(const std::vector<T>& values) {
   return gpu::Buffer::from(std::span<const T>(values));
 }
 
+std::uint64_t next_id() {
+  static std::atomic<std::uint64_t> next = 1;
+  return next++;
+}
+
 }  // namespace
 
 SceneBuffers::SceneBuffers(const gpu::Context& context, const scene::Geometry& geometry)
-    : geometry_(&geometry), clusters_(make_clusters(geometry)) {
+    : geometry_(&geometry), id_(next_id()), clusters_(make_clusters(geometry)) {
   std::vector<glm::uvec3> triangles;
   std::vector<std::uint32_t> materials;
   triangles.reserve(clusters_.order.size());
@@ -53,10 +62,10 @@ SceneBuffers::SceneBuffers(const gpu::Context& context, const scene::Geometry& g
 }
 
 void SceneBuffers::bind_samplers() const {
-  position_texels_.bind_sampler(8);
-  triangle_texels_.bind_sampler(9);
-  albedo_texels_.bind_sampler(10);
-  material_texels_.bind_sampler(11);
+  position_texels_.bind_sampler(shaders::k_positions_unit);
+  triangle_texels_.bind_sampler(shaders::k_triangles_unit);
+  albedo_texels_.bind_sampler(shaders::k_albedos_unit);
+  material_texels_.bind_sampler(shaders::k_materials_unit);
 }
 
 void SceneBuffers::draw(const Pyramid& pyramid) const {

@@ -15,7 +15,7 @@ class SceneBuffers {
   /// @throws scene::Error (driver) when a buffer would be larger than the driver allows.
   SceneBuffers(const gpu::Context& context, const scene::Geometry& geometry);
 
-  /// Binds positions, triangles, albedos and materials to samplers 8 to 11.
+  /// Binds positions, triangles, albedos and materials (shaders/bindings.glsl).
   void bind_samplers() const;
 
   /// Draws what may lie in the pyramid. Vertex attributes: 0 = world position, 1 = first triangle of the
@@ -25,12 +25,14 @@ class SceneBuffers {
   /// See frame::distance_to_geometry.
   double distance_to(glm::dvec3 point) const;
 
-  const scene::Geometry& geometry() const { return *geometry_; }
+  /// A number that no other scene on the GPU has or had: what is made from one is kept by it.
+  std::uint64_t id() const { return id_; }
   std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(clusters_.order.size()); }
   std::int64_t bytes() const;
 
  private:
   const scene::Geometry* geometry_;
+  std::uint64_t id_;
   Clusters clusters_;
   gpu::Buffer positions_, triangles_, albedos_, material_of_triangle_, first_triangles_;
   gpu::TexelView position_texels_, triangle_texels_, albedo_texels_, material_texels_;

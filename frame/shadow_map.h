@@ -15,7 +15,7 @@ class ShadowMap {
   /// @throws scene::Error (driver) when the driver has no texture of that size.
   ShadowMap(const gpu::Context& context, int size);
 
-  /// Draws the scene as seen from `light`, world space. The view's uniform block is bound.
+  /// Draws the scene as seen from `light`, world space. The blocks of camera and light are bound.
   void draw(const SceneBuffers& scene, glm::dvec3 light) const;
 
   /// sampler2DArray; see shaders/frame/shadow_cube.glsl.

@@ -74,6 +74,11 @@ void Texture::sample_bilinearly_around() const {
   glTextureParameteri(name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
+void Texture::sample_as_grey() const {
+  glTextureParameteri(name(), GL_TEXTURE_SWIZZLE_G, GL_RED);
+  glTextureParameteri(name(), GL_TEXTURE_SWIZZLE_B, GL_RED);
+}
+
 void Texture::bind_sampler(unsigned unit) const {
   glBindTextureUnit(unit, name());
 }

@@ -25,6 +25,7 @@ class Texture {
   Texture(Format format, glm::ivec2 size, int layers = 1);
 
   unsigned name() const { return handle_.get(); }
+  Format format() const { return format_; }
   glm::ivec2 size() const { return size_; }
   int layers() const { return layers_; }
   std::int64_t bytes() const;
@@ -32,6 +33,9 @@ class Texture {
   /// From now on samplers interpolate between texels, around the sides, not over the top and the bottom.
   /// llvmpipe does so in single precision; a GPU may round the weights to 1/256.
   void sample_bilinearly_around() const;
+
+  /// From now on samplers see the red channel in green and blue, too.
+  void sample_as_grey() const;
 
   void bind_sampler(unsigned unit) const;
   void bind_image(unsigned unit) const;  ///< for reads and writes

@@ -5,12 +5,13 @@
 
 namespace airlight::shaders {
 #include "media/medium.glsl"
-static_assert(sizeof(MediumBlock) == 48, "must match std140");
 }  // namespace airlight::shaders
 
 namespace airlight::media {
 
-/// The uniform block of a view's medium and light. `table_row_step` is left 0.
-shaders::MediumBlock medium_block(const scene::View& view);
+static_assert(static_cast<unsigned>(scene::PhaseFunction::isotropic) == shaders::k_isotropic);
+static_assert(static_cast<unsigned>(scene::PhaseFunction::rayleigh) == shaders::k_rayleigh);
+static_assert(static_cast<unsigned>(scene::PhaseFunction::henyey_greenstein) == shaders::k_henyey_greenstein);
+static_assert(static_cast<unsigned>(scene::PhaseFunction::hoffman_preetham) == shaders::k_hoffman_preetham);
 
 }  // namespace airlight::media

@@ -1,13 +1,12 @@
 #include "media/vsv.h"
 
+#include <algorithm>
 #include <array>
+#include <cassert>
 #include <numbers>
-
-#include <fmt/format.h>
 
 #include "epipolar/debug_images.h"
 #include "media/medium.h"
-#include "scene/error.h"
 
 #include "spirv/media/phi_growth_comp.h"
 #include "spirv/media/vsv_riemann_comp.h"
@@ -33,27 +32,24 @@ std::uint32_t direct_cells(const shaders::EpipolarBlock& space, const epipolar::
 
 }  // namespace
 
-Vsv::Vsv(const gpu::Context& context, const epipolar::VolumeSettings& volume, VsvIntegral integral,
-         PhiCells phi_cells)
-    : volume_(context, volume),
-      integral_(integral),
-      phi_cells_(phi_cells),
-      medium_block_(sizeof(shaders::MediumBlock)) {}
+Vsv::Vsv(const gpu::Context& context, const VsvOptions& options)
+    : options_(options), volume_(context, options.volume) {}
 
 void Vsv::load(const gpu::Context& context, const Variant& variant) {
   if (loaded_ == variant) return;
   const epipolar::Resolution& resolution = volume_.grid().resolution();
   const auto grid = epipolar::resolution_constants(resolution);
-  const std::array<gpu::Constant, 8> constants = {grid[0],
-                                                  grid[1],
-                                                  grid[2],
-                                                  gpu::Constant(3, variant.phase),
-                                                  gpu::Constant(4, variant.channels),
-                                                  gpu::Constant(5, k_table_rows),
-                                                  gpu::Constant(6, variant.direct),
-                                                  gpu::Constant(7, integral_ == VsvIntegral::factored)};
+  const std::array<gpu::Constant, 8> constants = {
+      grid[0],
+      grid[1],
+      grid[2],
+      gpu::Constant(3, variant.phase),
+      gpu::Constant(4, variant.channels),
+      gpu::Constant(5, k_table_rows),
+      gpu::Constant(6, variant.direct),
+      gpu::Constant(7, options_.integral == VsvIntegral::factored)};
   phi_growth_ = gpu::Program::compute(k_phi_growth_comp, std::array{grid[0], constants[3]});
-  if (integral_ != VsvIntegral::riemann) {
+  if (options_.integral != VsvIntegral::riemann) {
     build_table_ = gpu::Program::compute(k_vsv_table_build_comp, std::span(constants).first<6>());
     integrate_ = gpu::Program::compute(k_vsv_table_comp, constants);
     table_ = gpu::Buffer(std::int64_t{k_table_rows} * (resolution.phi + 1) * variant.channels * 8);
@@ -66,52 +62,80 @@ void Vsv::load(const gpu::Context& context, const Variant& variant) {
   loaded_ = variant;
 }
 
-void Vsv::require_support(VsvIntegral integral, const scene::Light& light) {
-  if (!light.texture || integral == VsvIntegral::riemann) return;
-  throw scene::Error(scene::ExitCode::usage,
-                     fmt::format("vsv:integral={}", integral == VsvIntegral::table ? "table" : "factored"),
-                     "it cannot take a light texture", "use vsv:integral=riemann");
+std::optional<frame::Refusal> VsvOptions::refusal(const scene::View& view) const {
+  const bool is_textured = std::any_of(view.lights.begin(), view.lights.end(),
+                                       [](const scene::Light& light) { return light.texture != nullptr; });
+  if (!is_textured || integral == VsvIntegral::riemann) return {};
+  return frame::Refusal{integral == VsvIntegral::table ? "integral=table" : "integral=factored",
+                        "it cannot take a light texture", "use vsv:integral=riemann"};
 }
 
 void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) {
-  require_support(integral_, inputs.view.lights[0]);
-  shaders::MediumBlock block = medium_block(inputs.view);
-  const bool is_grey = block.sigma_t.x == block.sigma_t.y && block.sigma_t.y == block.sigma_t.z;
-  const epipolar::Resolution& resolution = volume_.grid().resolution();
+  assert(!options_.refusal(inputs.view));
+  const bool has_table = options_.integral != VsvIntegral::riemann;
+  const gpu::Texture* light_texture = inputs.light_texture();
+
+  // Where the grid's rows lie, and what the shaders are specialised for.
   const shaders::EpipolarBlock space = volume_.find_ranges(inputs);
+  const glm::vec3 sigma_t = inputs.view.medium.sigma_s + inputs.view.medium.sigma_a;
+  const bool is_grey = sigma_t.x == sigma_t.y && sigma_t.y == sigma_t.z;
   load(inputs.context, {static_cast<std::uint32_t>(inputs.view.medium.phase), is_grey ? 1u : 3u,
-                        direct_cells(space, resolution), inputs.light_texture != nullptr});
-  inputs.timer.time("ranges", [&] {
-    block.table_row_step =
-        space.alpha_step * static_cast<float>(resolution.alpha) / static_cast<float>(k_table_rows - 1);
-    medium_block_.write(&block, sizeof block);
-    medium_block_.bind_uniform(2);
-    if (phi_cells_ == PhiCells::growing) phi_growth_.dispatch({1, 1, 1}, {1, 1, 1});
-  });
+                        direct_cells(space, volume_.grid().resolution()), light_texture != nullptr});
+  if (options_.phi_cells == PhiCells::growing)
+    inputs.timer.time("ranges", [&] { phi_growth_.dispatch({1, 1, 1}, {1, 1, 1}); });
+
+  // Visibility.
   volume_.fill(inputs);
-  if (integral_ != VsvIntegral::riemann) {
+
+  // Radiance.
+  if (has_table) {
     inputs.timer.time("table", [&] {
-      table_.bind_storage(6);
+      table_.bind_storage(shaders::k_table_storage);
       build_table_.dispatch({k_table_rows, 1, 1}, {8, 1, 1});
     });
   }
   inputs.timer.time("integrate", [&] {
-    inputs.surfaces.bind_sampler(0);
-    if (integral_ != VsvIntegral::riemann) table_texels_.bind_sampler(13);
-    if (inputs.light_texture) inputs.light_texture->bind_sampler(14);
-    radiance.bind_image(0);
+    inputs.surfaces.bind_sampler(shaders::k_surface_unit);
+    if (has_table) table_texels_.bind_sampler(shaders::k_table_unit);
+    if (light_texture) light_texture->bind_sampler(shaders::k_light_texture_unit);
+    radiance.bind_image(shaders::k_output_image);
     integrate_.dispatch({inputs.view.size, 1}, {8, 8, 1});
   });
 }
 
 std::map<std::string, std::int64_t> Vsv::bytes() const {
   std::map<std::string, std::int64_t> bytes = volume_.bytes();
-  if (integral_ != VsvIntegral::riemann) bytes["table"] = table_.bytes();
+  if (options_.integral != VsvIntegral::riemann) bytes["table"] = table_.bytes();
   return bytes;
 }
 
 std::vector<frame::DebugImage> Vsv::debug_images(const frame::FrameInputs& inputs) {
   return epipolar::debug_images(volume_, inputs);
+}
+
+frame::AirlightMethod vsv_method() {
+  std::vector<frame::Option> options = {frame::word_option(
+      {.name = "integral",
+       .meaning = "how visibility becomes radiance",
+       .quality = "table is exact up to the bits, riemann to a cell; factored does not ask where shadow lies",
+       .cost = "table grows with the changes of visibility a pixel, riemann with the lit samples",
+       .sweep = {"table", "riemann", "factored"},
+       .is_common = true},
+      {{"table", "between changes of visibility, from a table"},
+       {"riemann", "the paper's sum over lit samples"},
+       {"factored", "the lit fraction of what would be without shadow"}},
+      &VsvOptions::integral)};
+  for (frame::Option& option : frame::options_of(&VsvOptions::volume, epipolar::volume_options()))
+    options.push_back(std::move(option));
+  options.push_back(frame::word_option({.name = "phi-cells",
+                                        .meaning = "cells of the grid along the light angle",
+                                        .quality = "growing ones are finer where more light comes from",
+                                        .cost = "none",
+                                        .sweep = {"growing", "equal"}},
+                                       {{"growing"}, {"equal", "the paper's"}}, &VsvOptions::phi_cells));
+  return frame::describe<frame::Airlight, VsvOptions>(
+      "vsv", "epipolar voxelized shadow volumes", {}, std::move(options),
+      [](const gpu::Context& context, const VsvOptions& vsv) { return std::make_unique<Vsv>(context, vsv); });
 }
 
 }  // namespace airlight::media

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "epipolar/volume.h"
-#include "frame/methods.h"
+#include "frame/method.h"
 
 namespace airlight::media {
 
@@ -22,26 +22,33 @@ enum class PhiCells {
   equal,    ///< the paper's
 };
 
+struct VsvOptions {
+  VsvIntegral integral = VsvIntegral::table;
+  PhiCells phi_cells = PhiCells::growing;
+  epipolar::VolumeOptions volume = {};
+
+  void validate() const { volume.validate(); }
+  void fit(const scene::View& view) { volume.fit(view); }
+  bool needs_closed_parts() const { return volume.needs_closed_parts(); }
+
+  /// A light textured by direction, unless every sample is looked at: the table depends on α and φ alone, and
+  /// such a light on θ too.
+  std::optional<frame::Refusal> refusal(const scene::View& view) const;
+};
+
 /// `vsv`: airlight from an epipolar voxelized shadow volume.
 /// Based on: Wyman, "Voxelized Shadow Volumes", HPG 2011, sections 2 and 3. `factored`: Dobashi, Yamamoto and
 /// Nishita, "Interactive Rendering of Atmospheric Scattering Effects Using Graphics Hardware", 2002, as the
 /// paper uses it for its timings (end of its section 5).
 class Vsv : public frame::Airlight {
  public:
-  /// @throws scene::Error as epipolar::Grid.
-  Vsv(const gpu::Context& context, const epipolar::VolumeSettings& volume, VsvIntegral integral,
-      PhiCells phi_cells = PhiCells::growing);
+  /// @throws scene::Error as epipolar::ShadowVolume.
+  Vsv(const gpu::Context& context, const VsvOptions& options);
 
-  bool needs_shadow_map() const override { return volume_.needs_shadow_map(); }
-
-  /// @throws scene::Error (usage) where `require_support` does
+  /// The options must not refuse the view.
   void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override;
   std::map<std::string, std::int64_t> bytes() const override;
   std::vector<frame::DebugImage> debug_images(const frame::FrameInputs& inputs) override;
-
-  /// @throws scene::Error (usage) for a light textured by direction, unless every sample is looked at: the
-  /// table depends on α and φ alone, and such a light on θ too
-  static void require_support(VsvIntegral integral, const scene::Light& light);
 
   const epipolar::ShadowVolume& volume() const { return volume_; }
 
@@ -53,14 +60,14 @@ class Vsv : public frame::Airlight {
   };
   void load(const gpu::Context& context, const Variant& variant);
 
+  VsvOptions options_;
   epipolar::ShadowVolume volume_;
-  VsvIntegral integral_;
-  PhiCells phi_cells_;
-  gpu::Buffer medium_block_;
   std::optional<Variant> loaded_;
   gpu::Buffer table_;
   gpu::TexelView table_texels_;
   gpu::Program phi_growth_, build_table_, integrate_;
 };
+
+frame::AirlightMethod vsv_method();
 
 }  // namespace airlight::media

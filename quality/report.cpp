@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "quality/compare.h"
+#include "quality/pictures.h"
 #include "scene/light_texture.h"
 
 namespace airlight::quality {
@@ -97,20 +97,20 @@ shadow ray a pixel.</dd>
 std::string results_rows(const Comparison& comparison) {
   std::string html;
   for (const Run& run : comparison.runs) {
-    const AirlightError& error = run.airlight_error;
+    const AirlightError& error = run.errors.airlight;
     std::int64_t bytes = 0;
-    for (const auto& entry : run.bytes) bytes += entry.second;
-    html += "<tr>" + cell(run.volume) + cell(run.surface) + cell(fmt::format("{:.2f}", run.frame_ms)) +
-            cell(fmt::format("{}", run.frames)) +
+    for (const auto& entry : run.cost.bytes) bytes += entry.second;
+    html += "<tr>" + cell(run.volume) + cell(run.surface) + cell(fmt::format("{:.2f}", run.cost.frame_ms)) +
+            cell(fmt::format("{}", run.cost.frames)) +
             cell(run.march_ratio > 0.0 ? fmt::format("{:.2f}", run.march_ratio) : "–") +
-            cell(run.rays > 0 ? fmt::format("{:.2f}", run.mrays_per_s) : "–") +
+            cell(run.cost.rays > 0 ? fmt::format("{:.2f}", run.cost.mrays_per_s) : "–") +
             cell(error_text(error.rrmse, comparison.truth.self_error)) +
-            cell(error_text(run.same_surface_error.rrmse, comparison.truth.self_error)) +
-            cell(fmt::format("{}", run.same_surface_error.left_out_pixels)) + cell(percent(error.bias, "+")) +
-            cell(percent(error.mae)) + cell(percent(error.p99)) + cell(percent(error.max)) +
-            cell(fmt::format("{:.3g}", error.relmse)) + cell(percent(run.same_surface_error.leaked)) +
-            cell(percent(run.same_surface_error.spurious)) +
-            cell(fmt::format("{} / {}", run.surface_error.wrong_pixels, run.surface_error.pixels)) +
+            cell(error_text(run.errors.same_surface.rrmse, comparison.truth.self_error)) +
+            cell(fmt::format("{}", run.errors.same_surface.left_out_pixels)) +
+            cell(percent(error.bias, "+")) + cell(percent(error.mae)) + cell(percent(error.p99)) +
+            cell(percent(error.max)) + cell(fmt::format("{:.3g}", error.relmse)) +
+            cell(percent(run.errors.same_surface.leaked)) + cell(percent(run.errors.same_surface.spurious)) +
+            cell(fmt::format("{} / {}", run.errors.surface.wrong_pixels, run.errors.surface.pixels)) +
             cell(fmt::format("{:.1f}", static_cast<double>(bytes) / (1 << 20))) + "</tr>\n";
   }
   return html;
@@ -119,7 +119,7 @@ std::string results_rows(const Comparison& comparison) {
 std::string stages_table(const Comparison& comparison) {
   std::set<std::string> stages;
   for (const Run& run : comparison.runs) {
-    for (const auto& entry : run.stages_ms) stages.insert(entry.first);
+    for (const auto& entry : run.cost.stages_ms) stages.insert(entry.first);
   }
   std::string html = "<table><thead><tr><th class=\"name\">volume</th><th class=\"name\">surface</th>";
   for (const std::string& stage : stages) html += "<th>" + escape(stage) + "</th>";
@@ -127,8 +127,8 @@ std::string stages_table(const Comparison& comparison) {
   for (const Run& run : comparison.runs) {
     html += "<tr>" + cell(run.volume) + cell(run.surface);
     for (const std::string& stage : stages) {
-      const auto found = run.stages_ms.find(stage);
-      html += cell(found == run.stages_ms.end() ? "–" : fmt::format("{:.2f}", found->second));
+      const auto found = run.cost.stages_ms.find(stage);
+      html += cell(found == run.cost.stages_ms.end() ? "–" : fmt::format("{:.2f}", found->second));
     }
     html += "</tr>\n";
   }
@@ -143,9 +143,9 @@ std::string figure(const std::string& file, const std::string& caption) {
 
 std::string run_section(const Run& run) {
   std::string settings, debug_images;
-  const auto add_settings = [&](const char* prefix, const std::map<std::string, Value>& values) {
+  const auto add_settings = [&](const char* prefix, const std::map<std::string, frame::OptionValue>& values) {
     for (const auto& [name, value] : values)
-      settings += fmt::format("{}{}{}={}", settings.empty() ? "" : ", ", prefix, name, text_of(value));
+      settings += fmt::format("{}{}{}={}", settings.empty() ? "" : ", ", prefix, name, frame::text_of(value));
   };
   add_settings("", run.settings);
   add_settings("surface ", run.surface_settings);
@@ -163,7 +163,7 @@ std::string run_section(const Run& run) {
 }  // namespace
 
 std::string report_html(const Comparison& comparison) {
-  const Truth& truth = comparison.truth;
+  const TruthFigures& truth = comparison.truth;
   const scene::View& view = comparison.view;
   const std::string light_texture =
       view.lights[0].texture ? fmt::format(", textured by {}", escape(view.lights[0].texture->name())) : "";

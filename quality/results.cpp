@@ -1,6 +1,7 @@
 #include "quality/results.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <set>
@@ -59,7 +60,7 @@ Json view_json(const scene::View& view) {
   return json;
 }
 
-Json settings_json(const std::map<std::string, Value>& settings) {
+Json settings_json(const std::map<std::string, frame::OptionValue>& settings) {
   Json json = Json::object();
   for (const auto& [name, value] : settings) {
     std::visit([&, &key = name](const auto& v) { json[key] = v; }, value);
@@ -68,7 +69,7 @@ Json settings_json(const std::map<std::string, Value>& settings) {
 }
 
 Json run_json(const Run& run) {
-  const AirlightError& error = run.airlight_error;
+  const AirlightError& error = run.errors.airlight;
   Json json = {
       {"volume", run.volume},
       {"surface", run.surface},
@@ -76,10 +77,10 @@ Json run_json(const Run& run) {
       {"settings", settings_json(run.settings)},
       {"surface_settings", settings_json(run.surface_settings)},
       {"command", run.command},
-      {"stages_ms", run.stages_ms},
-      {"frame_ms", run.frame_ms},
-      {"frames", run.frames},
-      {"bytes", run.bytes},
+      {"stages_ms", run.cost.stages_ms},
+      {"frame_ms", run.cost.frame_ms},
+      {"frames", run.cost.frames},
+      {"bytes", run.cost.bytes},
       {"error",
        {{"airlight",
          {{"bias", number(error.bias)},
@@ -92,16 +93,16 @@ Json run_json(const Run& run) {
           {"leaked", number(error.leaked)},
           {"spurious", number(error.spurious)}}},
         {"airlight_same_surface",
-         {{"bias", number(run.same_surface_error.bias)},
-          {"rrmse", number(run.same_surface_error.rrmse)},
-          {"leaked", number(run.same_surface_error.leaked)},
-          {"spurious", number(run.same_surface_error.spurious)},
-          {"left_out_pixels", run.same_surface_error.left_out_pixels}}},
+         {{"bias", number(run.errors.same_surface.bias)},
+          {"rrmse", number(run.errors.same_surface.rrmse)},
+          {"leaked", number(run.errors.same_surface.leaked)},
+          {"spurious", number(run.errors.same_surface.spurious)},
+          {"left_out_pixels", run.errors.same_surface.left_out_pixels}}},
         {"surface",
-         {{"wrong_pixels", run.surface_error.wrong_pixels}, {"pixels", run.surface_error.pixels}}}}}};
-  if (run.rays > 0) {
-    json["rays"] = run.rays;
-    json["mrays_per_s"] = run.mrays_per_s;
+         {{"wrong_pixels", run.errors.surface.wrong_pixels}, {"pixels", run.errors.surface.pixels}}}}}};
+  if (run.cost.rays > 0) {
+    json["rays"] = run.cost.rays;
+    json["mrays_per_s"] = run.cost.mrays_per_s;
   }
   if (run.march_ratio > 0.0) json["march_ratio"] = run.march_ratio;
   for (const Run::DebugImage& image : run.debug_images)
@@ -141,10 +142,6 @@ std::string text_of(glm::dvec3 v) {
 
 std::string text_of(glm::vec3 v) {
   return fmt::format("{},{},{}", v.x, v.y, v.z);
-}
-
-std::string text_of(const Value& value) {
-  return std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
 }
 
 std::map<std::string, std::string> view_options(const scene::View& view) {
@@ -202,7 +199,7 @@ std::string results_json(const Comparison& comparison) {
 }
 
 std::string results_table(const Comparison& comparison) {
-  const Truth& truth = comparison.truth;
+  const TruthFigures& truth = comparison.truth;
   std::string text =
       fmt::format("{}, {}x{} pixels, {} triangles; {}, {} cores\n", comparison.scene, comparison.view.size.x,
                   comparison.view.size.y, comparison.triangles, comparison.device.renderer, comparison.cores);
@@ -215,36 +212,36 @@ std::string results_table(const Comparison& comparison) {
                                                  "rrmse %", "bias %", "p99 %", "same-surface rrmse %",
                                                  "left out px", "wrong px"}};
   for (const Run& run : comparison.runs) {
-    const AirlightError& error = run.airlight_error;
-    rows.push_back({run.volume, run.surface, fmt::format("{:.2f}", run.frame_ms),
+    const AirlightError& error = run.errors.airlight;
+    rows.push_back({run.volume, run.surface, fmt::format("{:.2f}", run.cost.frame_ms),
                     run.march_ratio > 0.0 ? fmt::format("{:.2f}", run.march_ratio) : "-",
-                    run.rays > 0 ? fmt::format("{:.2f}", run.mrays_per_s) : "-",
+                    run.cost.rays > 0 ? fmt::format("{:.2f}", run.cost.mrays_per_s) : "-",
                     error_text(error.rrmse, truth.self_error), fmt::format("{:+.3f}", 100.0 * error.bias),
                     fmt::format("{:.3g}", 100.0 * error.p99),
-                    error_text(run.same_surface_error.rrmse, truth.self_error),
-                    fmt::format("{}", run.same_surface_error.left_out_pixels),
-                    fmt::format("{}", run.surface_error.wrong_pixels)});
+                    error_text(run.errors.same_surface.rrmse, truth.self_error),
+                    fmt::format("{}", run.errors.same_surface.left_out_pixels),
+                    fmt::format("{}", run.errors.surface.wrong_pixels)});
   }
   text += layout(rows, 2);
 
   // Where the time of each goes.
   std::set<std::string> stages;
   for (const Run& run : comparison.runs) {
-    for (const auto& [stage, ms] : run.stages_ms) stages.insert(stage);
+    for (const auto& [stage, ms] : run.cost.stages_ms) stages.insert(stage);
   }
   rows.assign(1, std::vector<std::string>{"volume", "surface"});
   for (const std::string& stage : stages) rows[0].push_back(stage + " ms");
   for (const Run& run : comparison.runs) {
     rows.push_back({run.volume, run.surface});
     for (const std::string& stage : stages) {
-      const auto found = run.stages_ms.find(stage);
-      rows.back().push_back(found == run.stages_ms.end() ? "-" : fmt::format("{:.2f}", found->second));
+      const auto found = run.cost.stages_ms.find(stage);
+      rows.back().push_back(found == run.cost.stages_ms.end() ? "-" : fmt::format("{:.2f}", found->second));
     }
   }
   text += '\n';
   text += layout(rows, 2);
 
-  const std::size_t pixels = comparison.runs.empty() ? 0 : comparison.runs[0].surface_error.pixels;
+  const std::size_t pixels = comparison.runs.empty() ? 0 : comparison.runs[0].errors.surface.pixels;
   text += fmt::format(
       "\n"
       "frame ms: median of whole frames, GPU finished. Stages: medians, the GPU finished around each.\n"
@@ -259,6 +256,17 @@ std::string results_table(const Comparison& comparison) {
       "way round, of {} that both see.\n",
       truth.mean_airlight, pixels);
   return text;
+}
+
+std::string shell_quote(const std::string& word) {
+  const auto is_plain = [](unsigned char c) {
+    return std::isalnum(c) ||
+           std::string_view("_-+=:,./@%").find(static_cast<char>(c)) != std::string_view::npos;
+  };
+  if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain)) return word;
+  std::string quoted = "'";
+  for (char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
 }
 
 void write_text(const std::filesystem::path& file, const std::string& text) {

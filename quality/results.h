@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "gpu/context.h"
-#include "quality/methods.h"
-#include "quality/metrics.h"
+#include "quality/judge.h"
+#include "quality/measure.h"
 #include "scene/scene.h"
 
 namespace airlight::quality {
@@ -23,32 +23,17 @@ struct Run {
     std::string caption;
     float white;  ///< the value that is white in the PNG
   };
-  std::string volume, surface;                    ///< specs, as the user wrote them
-  std::string name;                               ///< stem of its images' file names
-  std::map<std::string, Value> settings;          ///< what the volume method was told
-  std::map<std::string, Value> surface_settings;  ///< what the surface method was told
-  std::string command;                            ///< repeats this run
-  bool is_judged = false;                         ///< whether --max-error applies to its airlight
-  std::map<std::string, double> stages_ms;
-  double frame_ms = 0.0;
-  int frames = 0;
-  std::map<std::string, std::int64_t> bytes;
-  std::uint64_t rays = 0;    ///< 0 for a method that traces none
-  double mrays_per_s = 0.0;  ///< 0 for a method that traces none
+  std::string volume, surface;                                 ///< specs, as the user wrote them
+  std::string name;                                            ///< stem of its images' file names
+  std::map<std::string, frame::OptionValue> settings;          ///< what the volume method was told
+  std::map<std::string, frame::OptionValue> surface_settings;  ///< what the surface method was told
+  std::string command;                                         ///< repeats this run
+  bool is_judged = false;     ///< whether --max-error applies to its airlight
+  bool is_yardstick = false;  ///< whether its frame time is what march_ratio divides
+  Cost cost;
   double march_ratio = 0.0;  ///< frame time of the fastest reference-march / frame_ms; 0 when none was run
-  AirlightError airlight_error{};
-  SameSurfaceError same_surface_error{};
-  SurfaceError surface_error{};
+  Errors errors;
   std::vector<DebugImage> debug_images;
-};
-
-/// The truth that the runs of a comparison are judged by.
-struct Truth {
-  int samples = 0;
-  double self_error = 0.0;  ///< rrmse against half as many samples
-  double ms = 0.0;          ///< of tracing and integrating
-  std::uint64_t rays = 0;
-  double mean_airlight = 0.0;  ///< over pixels and channels [W/(m² sr)]
 };
 
 struct Exposure {
@@ -66,7 +51,7 @@ struct Comparison {
   Exposure exposure;
   gpu::Device device;
   unsigned cores = 0;
-  Truth truth;
+  TruthFigures truth;
   std::vector<Run> runs;
 };
 
@@ -85,10 +70,12 @@ std::string error_text(double rrmse, double self_error);
 /// The shortest decimal numbers that read back the same, separated by commas.
 std::string text_of(glm::dvec3 value);
 std::string text_of(glm::vec3 value);
-std::string text_of(const Value& value);
 
 /// Every choice of a view under the name of the option that makes it.
 std::map<std::string, std::string> view_options(const scene::View& view);
+
+/// Words fit for a shell, quoted where they need it.
+std::string shell_quote(const std::string& word);
 
 /// @throws scene::Error (bad_file) when the file cannot be written to the end
 void write_text(const std::filesystem::path& file, const std::string& text);

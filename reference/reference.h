@@ -9,6 +9,10 @@
 
 namespace airlight::reference {
 
+/// Raised with every change of the code that changes an image of the truth: images kept on disk are told
+/// apart by it.
+inline constexpr int k_truth_version = 1;
+
 /// The ground truth of a view, row 0 at the top. Radiances are RGB, unclamped [W/(m² sr)].
 struct SurfaceImage {
   std::vector<float> distance;  ///< along the view ray from the eye [m]; 0 where nothing is hit

@@ -3,29 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
-#include <tuple>
 
 #include <fmt/format.h>
 
 namespace airlight::scene {
 namespace {
-
-/// The number of each position among the different ones.
-std::vector<std::uint32_t> weld(const std::vector<glm::vec3>& positions) {
-  const auto key = [&](std::uint32_t i) {
-    return std::tuple(positions[i].x, positions[i].y, positions[i].z);
-  };
-  std::vector<std::uint32_t> order(positions.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
-  std::vector<std::uint32_t> welded(positions.size());
-  std::uint32_t count = 0;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    if (i > 0 && key(order[i]) != key(order[i - 1])) ++count;
-    welded[order[i]] = count;
-  }
-  return welded;
-}
 
 /// Disjoint sets of triangles.
 class Sets {
@@ -43,46 +25,33 @@ class Sets {
 
 }  // namespace
 
-Components find_components(const Geometry& geometry) {
-  struct Edge {
-    std::uint32_t lower, upper, triangle;
-    auto ends() const { return std::pair(lower, upper); }
-  };
-  const std::vector<std::uint32_t> welded = weld(geometry.positions);
-  std::vector<Edge> edges;
-  std::vector<std::array<std::uint32_t, 3>> faces;
-  edges.reserve(3 * geometry.triangles.size());
-  faces.reserve(geometry.triangles.size());
-  for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t) {
-    const glm::uvec3 triangle = geometry.triangles[t];
-    std::array<std::uint32_t, 3> face = {welded[triangle.x], welded[triangle.y], welded[triangle.z]};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto [lower, upper] = std::minmax(face[i], face[(i + 1) % 3]);
-      edges.push_back({lower, upper, t});
-    }
-    std::sort(face.begin(), face.end());
-    faces.push_back(face);
-  }
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.ends() < b.ends(); });
-
+Components find_components(const Geometry& geometry, const Edges& edges) {
   // Join what shares an edge; note the edges that no solid has.
   Components result;
   Sets sets(geometry.triangles.size());
   std::vector<std::uint32_t> at_gap;
-  for (std::size_t first = 0, end = 0; first < edges.size(); first = end) {
-    while (end < edges.size() && edges[end].ends() == edges[first].ends()) {
-      sets.join(edges[end].triangle, edges[first].triangle);
-      ++end;
-    }
-    if ((end - first) % 2 == 0) continue;
-    ++(end - first == 1 ? result.open_edges : result.odd_edges);
-    at_gap.push_back(edges[first].triangle);
+  for (const Edges::Edge& edge : edges.edges) {
+    const auto triangles = edges.triangles_of(edge);
+    for (const std::uint32_t triangle : triangles) sets.join(triangle, triangles[0]);
+    if (edge.count % 2 == 0) continue;
+    ++(edge.count == 1 ? result.open_edges : result.odd_edges);
+    at_gap.push_back(triangles[0]);
   }
 
+  // Count the triangles that have another one's corners.
+  std::vector<std::array<std::uint32_t, 3>> faces;
+  faces.reserve(geometry.triangles.size());
+  for (const glm::uvec3& triangle : geometry.triangles) {
+    std::array<std::uint32_t, 3> face;
+    for (int i = 0; i < 3; ++i) face[static_cast<std::size_t>(i)] = edges.position_of_vertex[triangle[i]];
+    std::sort(face.begin(), face.end());
+    faces.push_back(face);
+  }
   std::sort(faces.begin(), faces.end());
   for (std::size_t i = 1; i < faces.size(); ++i)
     result.duplicate_triangles += faces[i] == faces[i - 1] ? 1 : 0;
 
+  // Number the components.
   constexpr std::uint32_t k_none = ~0u;
   std::vector<std::uint32_t> number_of_root(geometry.triangles.size(), k_none);
   for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/edges.h"
 #include "scene/scene.h"
 
 namespace airlight::scene {
@@ -24,7 +25,8 @@ struct Components {
   bool is_watertight() const { return open_edges == 0 && odd_edges == 0 && duplicate_triangles == 0; }
 };
 
-Components find_components(const Geometry& geometry);
+/// @param edges of the same geometry
+Components find_components(const Geometry& geometry, const Edges& edges);
 
 /// One line with the counts, for a mesh that is not watertight.
 std::string describe_gaps(const Components& components);

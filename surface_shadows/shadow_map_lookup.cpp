@@ -1,5 +1,6 @@
 #include "surface_shadows/shadow_map_lookup.h"
 
+#include "frame/blocks.h"
 #include "frame/shadow_map.h"
 
 #include "spirv/surface_shadows/shadow_map_lookup_comp.h"
@@ -9,12 +10,19 @@ namespace airlight::surface_shadows {
 ShadowMapLookup::ShadowMapLookup() : program_(gpu::Program::compute(k_shadow_map_lookup_comp)) {}
 
 void ShadowMapLookup::query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) {
+  const frame::ShadowMap& shadow_map = inputs.shadow_map();
   inputs.timer.time("surface_query", [&] {
-    inputs.surfaces.bind_sampler(0);
-    inputs.shadow_map->depth().bind_sampler(1);
-    visibility.bind_image(0);
+    inputs.surfaces.bind_sampler(shaders::k_surface_unit);
+    shadow_map.depth().bind_sampler(shaders::k_shadow_map_unit);
+    visibility.bind_image(shaders::k_output_image);
     program_.dispatch({inputs.view.size, 1}, {8, 8, 1});
   });
+}
+
+frame::SurfaceMethod shadow_map_method() {
+  return frame::describe<frame::SurfaceShadow, frame::NoOptions>(
+      "shadow-map", "one look-up of the shadow cube a pixel", {}, {},
+      [](const gpu::Context&, const frame::NoOptions&) { return std::make_unique<ShadowMapLookup>(); });
 }
 
 }  // namespace airlight::surface_shadows

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "frame/methods.h"
+#include "frame/method.h"
 #include "gpu/program.h"
 
 namespace airlight::surface_shadows {
@@ -11,11 +11,12 @@ namespace airlight::surface_shadows {
 class ShadowMapLookup : public frame::SurfaceShadow {
  public:
   ShadowMapLookup();
-  bool needs_shadow_map() const override { return true; }
   void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override;
 
  private:
   gpu::Program program_;
 };
+
+frame::SurfaceMethod shadow_map_method();
 
 }  // namespace airlight::surface_shadows

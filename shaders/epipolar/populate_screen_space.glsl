@@ -6,7 +6,7 @@
 //
 // A crossing must be found by exactly one of the triangles that meet at an edge. Which side of an edge a ray passes is
 // therefore decided from the edge's two corners alone, taken in an order that does not depend on the triangle.
-#include "frame/view.glsl"
+#include "epipolar/uniforms.glsl"
 #include "epipolar/conservative.glsl"
 #include "epipolar/resolution.glsl"
 #include "epipolar/window.glsl"
@@ -15,10 +15,10 @@
 #define TRIANGLE ScreenTriangle
 #include "epipolar/triangle_queue.glsl"
 
-layout(std430, binding = 9) buffer Flips { uint flips[]; };  // as the grid's window, by words
+layout(std430, binding = k_scratch_storage) buffer Flips { uint flips[]; };  // as the grid's window, by words
 
 vec3 corner(uint index) {
-  vec3 p = eye_relative(view, texelFetch(positions, int(index)).xyz);
+  vec3 p = eye_relative(camera, texelFetch(positions, int(index)).xyz);
   precise vec3 q = vec3(dot(p, space.u), dot(p, space.f), dot(p, space.axis));
   return q;
 }

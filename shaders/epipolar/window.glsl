@@ -1,5 +1,5 @@
 // What one dispatch over the grid works on. GLSL only.
-layout(std140, binding = 3) uniform PassUniform {
+layout(std140, binding = 4) uniform PassUniform {
   // The run of half-planes whose bits are bound for writing: storage buffers may be smaller than the grid.
   uint window_first_plane;
   uint window_planes;

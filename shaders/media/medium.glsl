@@ -6,16 +6,8 @@
 #ifndef AIRLIGHT_MEDIUM_GLSL
 #define AIRLIGHT_MEDIUM_GLSL
 #include "epipolar/space.glsl"
-
-// One uniform block (std140), written by media/medium.cpp.
-struct MediumBlock {
-  vec3 sigma_s;          // scattering coefficient [1/m]
-  float g;               // mean cosine of Henyey-Greenstein, alone or as a part of Hoffman-Preetham
-  vec3 sigma_t;          // extinction coefficient [1/m]
-  float table_row_step;  // of the table integral: distance of its rows in α [rad]
-  vec3 intensity;        // radiant intensity of the light [W/sr]
-  float rayleigh_weight;  // of Hoffman-Preetham: the part that Rayleigh's function has, 0 to 1
-};
+#include "frame/light.glsl"
+#include "frame/medium.glsl"
 
 CONST uint k_isotropic = 0u;
 CONST uint k_rayleigh = 1u;
@@ -63,8 +55,8 @@ FUNCTION vec3 integrate_cell(IN(EpipolarBlock) space, IN(MediumBlock) medium, ui
 }
 
 // What turns the integral over φ into radiance: σ_s I / (D sin α).
-FUNCTION vec3 airlight_scale(IN(EpipolarBlock) space, IN(MediumBlock) medium, float sin_alpha) {
-  return medium.sigma_s * medium.intensity / (space.distance * sin_alpha);
+FUNCTION vec3 airlight_scale(IN(EpipolarBlock) space, IN(LightBlock) light, IN(MediumBlock) medium, float sin_alpha) {
+  return medium.sigma_s * light.intensity / (space.distance * sin_alpha);
 }
 
 #endif

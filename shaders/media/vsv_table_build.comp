@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "epipolar/grid.glsl"
+#include "epipolar/uniforms.glsl"
 #include "epipolar/resolution.glsl"
 #include "epipolar/phi_range.glsl"
 #include "media/medium.glsl"
@@ -9,14 +9,12 @@
 // One invocation integrates one row outwards.
 layout(local_size_x = 8) in;
 layout(constant_id = 3) const uint k_phase = 0;
-layout(std140, binding = 1) uniform EpipolarUniform { EpipolarBlock space; };
-layout(std140, binding = 2) uniform MediumUniform { MediumBlock medium; };
-layout(std430, binding = 6) buffer Table { float table[]; };
+layout(std430, binding = k_table_storage) buffer Table { float table[]; };
 
 void main() {
   uint row = gl_GlobalInvocationID.x;
   if (row >= k_table_rows) return;
-  float complement = k_pi - (space.alpha_min + float(row) * medium.table_row_step);
+  float complement = k_pi - (space.alpha_min + float(row) * table_row_step(space));
   PhiCells cells = phi_cells();
   vec3 sum = vec3(0.0);
   for (uint k = 0u; k <= k_phi_count; ++k) {

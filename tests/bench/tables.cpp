@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include "frame/frame.h"
+#include "frame/none.h"
 #include "media/vsv.h"
 #include "scene/builtin.h"
 #include "scene/error.h"
@@ -59,9 +60,9 @@ class Bench {
   std::size_t triangles() const { return scene_.geometry.triangles.size(); }
 
   /// Medians of the stages of a frame.
-  Stages stages(const epipolar::VolumeSettings& volume, int shadow_map) {
+  Stages stages(const epipolar::VolumeOptions& volume, int shadow_map) {
     frame::Frame frame(context_, scene_.geometry, shadow_map);
-    media::Vsv vsv(context_, volume, media::VsvIntegral::table);
+    media::Vsv vsv(context_, {.volume = volume});
     frame::NoShadow no_shadow;
     std::map<std::string, std::vector<double>> samples;
     for (int i = 0; i < 6; ++i) {
@@ -127,7 +128,7 @@ void print_counts(Bench& bench, const char* title, int epipolar::Resolution::*co
   const auto sweep = [&](Populate populate, std::optional<Scan> scan) {
     std::vector<Stages> runs;
     for (const int n : counts) {
-      epipolar::VolumeSettings volume{.populate = populate, .scan = scan};
+      epipolar::VolumeOptions volume{.populate = populate, .scan = scan};
       volume.resolution.*count = n;
       runs.push_back(bench.stages(volume, 2048));
     }

@@ -22,7 +22,7 @@ struct Debugged {
   float phi_max;
 };
 
-Debugged debug(const char* scene, glm::ivec2 size, const VolumeSettings& settings) {
+Debugged debug(const char* scene, glm::ivec2 size, const VolumeOptions& settings) {
   Debugged debugged;
   const scene::Geometry& geometry = builtin(scene).geometry;
   const scene::View view = view_of(builtin(scene), size);
@@ -45,7 +45,7 @@ Debugged debug(const char* scene, glm::ivec2 size, const VolumeSettings& setting
   return debugged;
 }
 
-const VolumeSettings k_small = {.resolution = {64, 128, 256}};
+const VolumeOptions k_small = {.resolution = {64, 128, 256}};
 
 TEST(DebugImages, OfTheGridCountItsBits) {
   const Debugged debugged = debug("window", {48, 32}, k_small);
@@ -60,7 +60,7 @@ TEST(DebugImages, OfTheGridCountItsBits) {
 
 TEST(DebugImages, OfAnUnscannedGridHoldWhatTheScanDrawsOut) {
   for (Scan scan : {Scan::fused, Scan::column, Scan::multi_pass}) {
-    VolumeSettings settings = k_small;
+    VolumeOptions settings = k_small;
     settings.scan = scan;
     const Debugged debugged = debug("window", {48, 32}, settings);
     // A light ray has at most one bit before the scan, so that along a row the sums of the one are the other.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "frame/frame.h"
+#include "frame/none.h"
 #include "reference/reference.h"
 #include "support/gpu_context.h"
 #include "support/scenes.h"
@@ -27,10 +28,10 @@ Wrong compare(const scene::Geometry& geometry, const scene::View& view, int shad
   const frame::FrameImages images = frame.read();
   const reference::SurfaceImage exact = reference::Reference(geometry, view).surfaces();
   Wrong count{0, 0};
-  for (std::size_t i = 0; i < images.visibility.size(); ++i) {
+  for (std::size_t i = 0; i < images.distance.size(); ++i) {
     if (images.distance[i] == 0.0f || exact.distance[i] == 0.0f) continue;
     ++count.pixels;
-    count.wrong += images.visibility[i] != exact.visibility[i];
+    count.wrong += images.visibility[0][i] != exact.visibility[i];
   }
   return count;
 }

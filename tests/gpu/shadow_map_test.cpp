@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "frame/view_block.h"
+#include "frame/blocks.h"
 #include "reference/visibility.h"
 #include "scene/error.h"
 #include "support/frame_probe.h"
@@ -35,13 +35,12 @@ TEST_P(ShadowMapOf, HoldsTheDistancesOfRaysThroughItsTexels) {
   const scene::View view = view_of(scene, {16, 16});
   const int size = 96;
   look_into_frame(scene.geometry, view, size, [&](const FrameInputs& inputs) {
-    const std::vector<float> texels = read_faces(*inputs.shadow_map, size);
-    // Distances are stored as light_near / z, and light_near is in the view's block, which the frame keeps
-    // bound.
+    const std::vector<float> texels = read_faces(inputs.shadow_map(), size);
+    // Distances are stored as near / z, and near is in the light's block, which the frame keeps bound.
     GLint block = 0;
-    glGetIntegeri_v(GL_UNIFORM_BUFFER_BINDING, 0, &block);
-    shaders::ViewBlock view_block;
-    glGetNamedBufferSubData(static_cast<GLuint>(block), 0, sizeof view_block, &view_block);
+    glGetIntegeri_v(GL_UNIFORM_BUFFER_BINDING, shaders::k_light_block, &block);
+    shaders::LightBlock light;
+    glGetNamedBufferSubData(static_cast<GLuint>(block), 0, sizeof light, &light);
     // Rays from the light: what is the light elsewhere is here any other point.
     const reference::Visibility exact(scene.geometry, view.camera.eye, view.lights[0].position);
     std::size_t at = 0, hits = 0, wrong = 0;
@@ -51,7 +50,7 @@ TEST_P(ShadowMapOf, HoldsTheDistancesOfRaysThroughItsTexels) {
           const glm::dvec3 along(
               shaders::cube_direction(face, shaders::cube_texel_centre({x, y}, static_cast<float>(size))));
           const double expected = exact.first_hit(glm::normalize(along)).distance;
-          const double z = texels[at] > 0 ? static_cast<double>(view_block.light_near / texels[at]) : 0.0;
+          const double z = texels[at] > 0 ? static_cast<double>(light.near / texels[at]) : 0.0;
           const double distance = z * glm::length(along);
           hits += expected > 0;
           // Depth is interpolated in single precision, the more coarsely the farther a triangle reaches
@@ -74,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, ShadowMapOf, testing::Values("cornell", "window
 TEST(ShadowMap, OfAnEmptySceneHoldsNothing) {
   const scene::Scene& scene = builtin("empty");
   look_into_frame(scene.geometry, view_of(scene, {8, 8}), 16, [&](const FrameInputs& inputs) {
-    for (float texel : read_faces(*inputs.shadow_map, 16)) EXPECT_EQ(texel, 0.0f);
+    for (float texel : read_faces(inputs.shadow_map(), 16)) EXPECT_EQ(texel, 0.0f);
   });
 }
 

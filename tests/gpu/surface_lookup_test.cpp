@@ -8,6 +8,7 @@
 
 #include "epipolar/space.h"
 #include "frame/frame.h"
+#include "frame/none.h"
 #include "support/gpu_context.h"
 #include "support/scenes.h"
 
@@ -18,7 +19,7 @@ using tests::builtin;
 using tests::view_of;
 
 /// All angles, so that a cell's width follows from the count.
-VolumeSettings settings_of(Populate populate) {
+VolumeOptions settings_of(Populate populate) {
   return {.resolution = {512, 1024, 512}, .populate = populate, .ranges = Ranges::full};
 }
 
@@ -29,7 +30,7 @@ struct Seen {
 };
 
 std::vector<Seen> look(const scene::Geometry& geometry, const scene::View& view,
-                       const VolumeSettings& settings, int shadow_map_size = 2048) {
+                       const VolumeOptions& settings, int shadow_map_size = 2048) {
   frame::Frame frame(tests::gpu_context(), geometry, shadow_map_size);
   SurfaceLookup lookup(tests::gpu_context(), settings);
   frame::NoAirlight no_airlight;
@@ -45,7 +46,7 @@ std::vector<Seen> look(const scene::Geometry& geometry, const scene::View& view,
     const double y = (1.0 - 2.0 * (static_cast<double>(i / width) + 0.5) / view.size.y) * camera.half_height;
     const glm::dvec3 ray = glm::normalize(camera.forward + x * camera.right + y * camera.up);
     seen.push_back(
-        {camera.eye + static_cast<double>(images.distance[i]) * ray, images.visibility[i] == 1.0f});
+        {camera.eye + static_cast<double>(images.distance[i]) * ray, images.visibility[0][i] == 1.0f});
   }
   return seen;
 }
@@ -84,7 +85,7 @@ TEST_P(SurfaceLookupOn, AFloorIsExactToOneCell) {
   tests::add_quad(geometry, {-20, shadow->floor, -20}, {40, 0, 0}, {0, 0, 40});
   scene::View view = view_of(scene, {128, 128});
   view.camera = shadow->camera;
-  const VolumeSettings settings = settings_of(populate);
+  const VolumeOptions settings = settings_of(populate);
 
   const Axes axes = make_axes(glm::normalize(view.lights[0].position - view.camera.eye));
   const double theta_step = 2 * std::numbers::pi / settings.resolution.theta;
@@ -152,7 +153,7 @@ TEST_P(SurfaceLookupBy, ALonePlaneIsLitWhollyAtAnySlope) {
     for (int shadow_map_size : {128, 2048}) {
       for (Ranges ranges : {Ranges::frame, Ranges::full}) {
         int dark = 0;
-        VolumeSettings settings = settings_of(GetParam());
+        VolumeOptions settings = settings_of(GetParam());
         settings.ranges = ranges;
         for (const Seen& pixel : look(plane, view, settings, shadow_map_size)) dark += !pixel.is_lit;
         EXPECT_EQ(dark, 0) << "with the light at " << height << " and " << shadow_map_size << " texels";

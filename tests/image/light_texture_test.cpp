@@ -159,7 +159,8 @@ TEST(TexturedLight, ComesAndGoesFromFrameToFrame) {
   scene::View textured = plain;
   textured.lights[0].texture = half_black();
   frame::Frame frame(tests::gpu_context(), scene.geometry, 256);
-  media::Vsv vsv(tests::gpu_context(), {64, 128, 128}, media::VsvIntegral::riemann);
+  media::Vsv vsv(tests::gpu_context(),
+                 {.integral = media::VsvIntegral::riemann, .volume = {.resolution = {64, 128, 128}}});
   frame::NoShadow no_shadow;
   gpu::StageTimer off(nullptr);
   const auto radiance = [&](const scene::View& view) {
@@ -176,14 +177,11 @@ TEST(TexturedLight, IsRefusedByIntegralsThatDoNotLookAtEverySample) {
   scene::View view = tests::view_of(tests::builtin("empty"), {8, 8});
   view.lights[0].texture = half_black();
   for (media::VsvIntegral integral : {media::VsvIntegral::table, media::VsvIntegral::factored}) {
-    try {
-      tests::render_vsv({}, view, {.resolution = {64, 64, 128}, .integral = integral});
-      FAIL() << "an error was expected";
-    } catch (const scene::Error& error) {
-      EXPECT_EQ(error.exit_code, scene::ExitCode::usage);
-      EXPECT_THAT(error.what(), testing::HasSubstr("integral=riemann"));
-    }
+    const auto refusal = media::VsvOptions{.integral = integral}.refusal(view);
+    ASSERT_TRUE(refusal);
+    EXPECT_THAT(refusal->remedy, testing::HasSubstr("integral=riemann"));
   }
+  EXPECT_FALSE(media::VsvOptions{.integral = media::VsvIntegral::riemann}.refusal(view));
 }
 
 }  // namespace

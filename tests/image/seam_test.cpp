@@ -18,8 +18,8 @@ TEST(Seam, AtPlusMinusPiIsAsGoodAsElsewhere) {
   const tests::Truth truth = tests::trace(geometry, view, 512);
   const frame::FrameImages images = tests::render_vsv(geometry, view, {.resolution = {256, 512, 512}});
 
-  const shaders::EpipolarBlock space =
-      epipolar::epipolar_block(view, {256, 64, 128}, epipolar::Ranges::frame, epipolar::ThetaCells::equal);
+  const shaders::EpipolarBlock space = epipolar::epipolar_block(
+      view, view.lights[0], {256, 64, 128}, epipolar::Ranges::frame, epipolar::ThetaCells::equal);
   const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
   // Bands of 0.2 rad about θ = ±π and about every other multiple of 0.2 rad.
   const int bands = 32;

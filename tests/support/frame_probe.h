@@ -6,6 +6,7 @@
 
 #include "epipolar/volume.h"
 #include "frame/frame.h"
+#include "frame/none.h"
 #include "support/gpu_context.h"
 
 namespace airlight::tests {
@@ -15,7 +16,6 @@ class FrameProbe : public frame::Airlight {
  public:
   using Look = std::function<void(const frame::FrameInputs&)>;
   explicit FrameProbe(Look look) : look_(std::move(look)) {}
-  bool needs_shadow_map() const override { return true; }
   void integrate(const frame::FrameInputs& inputs, const gpu::Texture&) override { look_(inputs); }
 
  private:

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "frame/frame.h"
+#include "frame/none.h"
 #include "media/vsv.h"
 #include "quality/metrics.h"
 #include "reference/reference.h"
@@ -30,12 +31,12 @@ struct VsvSettings {
 inline frame::FrameImages render_vsv(const scene::Geometry& geometry, const scene::View& view,
                                      const VsvSettings& settings = {}) {
   frame::Frame frame(gpu_context(), geometry, settings.shadow_map);
-  media::Vsv vsv(gpu_context(),
-                 {.resolution = settings.resolution,
-                  .populate = settings.populate,
-                  .scan = settings.scan,
-                  .ranges = settings.ranges},
-                 settings.integral, settings.phi_cells);
+  media::Vsv vsv(gpu_context(), {.integral = settings.integral,
+                                 .phi_cells = settings.phi_cells,
+                                 .volume = {.resolution = settings.resolution,
+                                            .populate = settings.populate,
+                                            .scan = settings.scan,
+                                            .ranges = settings.ranges}});
   frame::NoShadow no_shadow;
   surface_shadows::ShadowMapLookup lookup;
   gpu::StageTimer timer(nullptr);

@@ -90,12 +90,13 @@ TEST(MakeAxes, DoNotSpinWithTheCamera) {
   view.lights[0].position = {-2, 4, 1};
   Random random(4);
   view.camera.target = {0, 0, 0};
-  const shaders::EpipolarBlock first = epipolar_block(view, {64, 64, 128}, Ranges::frame, ThetaCells::fitted);
+  const shaders::EpipolarBlock first =
+      epipolar_block(view, view.lights[0], {64, 64, 128}, Ranges::frame, ThetaCells::fitted);
   for (int i = 0; i < 100; ++i) {
     view.camera.target = random.in_box(10);
     view.camera.up = random.direction();
     const shaders::EpipolarBlock block =
-        epipolar_block(view, {64, 64, 128}, Ranges::frame, ThetaCells::fitted);
+        epipolar_block(view, view.lights[0], {64, 64, 128}, Ranges::frame, ThetaCells::fitted);
     EXPECT_EQ(block.axis, first.axis);
     EXPECT_EQ(block.u, first.u);
     EXPECT_EQ(block.f, first.f);
@@ -193,7 +194,7 @@ TEST(EpipolarBlock, SpansTheRangeWithItsCells) {
   view.lights[0].position = {4, 4, -2};
   view.size = {100, 60};
   const shaders::EpipolarBlock block =
-      epipolar_block(view, {100, 64, 128}, Ranges::frame, ThetaCells::fitted);
+      epipolar_block(view, view.lights[0], {100, 64, 128}, Ranges::frame, ThetaCells::fitted);
   const Range range = alpha_range(scene::camera_frame(view.camera, view.size),
                                   glm::normalize(view.lights[0].position - view.camera.eye));
   EXPECT_FLOAT_EQ(block.alpha_min, static_cast<float>(range.lower));
@@ -211,8 +212,10 @@ TEST(EpipolarBlock, KeepsItsAxesFarFromTheOrigin) {
   far.camera.eye += offset;
   far.camera.target += offset;
   far.lights[0].position += offset;
-  const shaders::EpipolarBlock a = epipolar_block(near, {64, 64, 128}, Ranges::frame, ThetaCells::fitted),
-                               b = epipolar_block(far, {64, 64, 128}, Ranges::frame, ThetaCells::fitted);
+  const shaders::EpipolarBlock a = epipolar_block(near, near.lights[0], {64, 64, 128}, Ranges::frame,
+                                                  ThetaCells::fitted),
+                               b = epipolar_block(far, far.lights[0], {64, 64, 128}, Ranges::frame,
+                                                  ThetaCells::fitted);
   EXPECT_EQ(a.axis, b.axis);
   EXPECT_EQ(a.distance, b.distance);
   EXPECT_EQ(a.alpha_min, b.alpha_min);
@@ -268,8 +271,8 @@ TEST(PixelExact, RowsAreNowhereMoreThanAPixelApart) {
     const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
     const Axes axes = make_axes(glm::normalize(view.lights[0].position));
     for (const ThetaCells cells : {ThetaCells::fitted, ThetaCells::equal}) {
-      const Resolution n = pixel_exact(view, Ranges::frame, cells);
-      const shaders::EpipolarBlock space = epipolar_block(view, n, Ranges::frame, cells);
+      const Resolution n = pixel_exact(view, view.lights[0], Ranges::frame, cells);
+      const shaders::EpipolarBlock space = epipolar_block(view, view.lights[0], n, Ranges::frame, cells);
       double most_alpha = 0.0, most_theta = 0.0;
       for (int sample = 0; sample < 2000; ++sample) {
         // The rays of two neighbouring pixels, in either direction.

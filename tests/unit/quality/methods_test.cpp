@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "media/vsv.h"
 #include "scene/error.h"
 
 namespace airlight::quality {
@@ -15,7 +16,7 @@ using testing::HasSubstr;
 /// What parsing a list of volume methods complains about.
 std::string complaint(std::string_view list) {
   try {
-    parse_volumes(list, {});
+    parse_volumes(list);
   } catch (const Error& error) {
     EXPECT_EQ(error.exit_code, ExitCode::usage);
     return error.what();
@@ -23,35 +24,42 @@ std::string complaint(std::string_view list) {
   return "none";
 }
 
-TEST(MethodSpec, OfOneWordTakesTheCommonSettings) {
-  Settings common;
-  common.volume.resolution.alpha = 100;
-  common.integral = media::VsvIntegral::riemann;
+const media::VsvOptions& vsv_of(const VolumeChoice& choice) {
+  return std::any_cast<const media::VsvOptions&>(choice.options);
+}
+
+TEST(MethodSpec, OfOneWordTakesTheCommonOptions) {
+  const std::vector<CommonOption> common = {{"--alpha", "alpha", "100"},
+                                            {"--integral", "integral", "riemann"},
+                                            {"--reference-samples", "samples", "7"}};
   const std::vector<VolumeChoice> choices = parse_volumes("vsv", common);
   ASSERT_EQ(choices.size(), 1u);
   EXPECT_EQ(choices[0].spec, "vsv");
   EXPECT_EQ(choices[0].method->name, "vsv");
-  EXPECT_EQ(choices[0].settings.volume.resolution.alpha, 100);
-  EXPECT_EQ(choices[0].settings.integral, media::VsvIntegral::riemann);
+  EXPECT_EQ(vsv_of(choices[0]).volume.resolution.alpha, 100);
+  EXPECT_EQ(vsv_of(choices[0]).integral, media::VsvIntegral::riemann);
 }
 
-TEST(MethodSpec, OwnKeysOverrideTheCommonSettings) {
-  Settings common;
-  common.volume.resolution = {100, 200, 256};
+TEST(MethodSpec, OwnKeysOverrideTheCommonOptions) {
+  const std::vector<CommonOption> common = {
+      {"--alpha", "alpha", "100"}, {"--theta", "theta", "200"}, {"--phi", "phi", "256"}};
   const std::vector<VolumeChoice> choices = parse_volumes(
-      "vsv:alpha=7:phi=128,vsv:integral=riemann:scan=fused:phi-cells=equal:populate=shadow-map,"
+      "vsv:alpha=7:phi=128,vsv:integral=riemann:scan=column:phi-cells=equal:populate=conservative,"
       "reference:samples=33,reference-march:steps=44:rays=single,none",
       common);
   ASSERT_EQ(choices.size(), 5u);
-  EXPECT_EQ(choices[0].settings.volume.resolution, (epipolar::Resolution{7, 200, 128}));
-  EXPECT_EQ(choices[1].settings.volume.resolution, common.volume.resolution);
-  EXPECT_EQ(choices[1].settings.integral, media::VsvIntegral::riemann);
-  EXPECT_EQ(choices[1].settings.volume.scan, epipolar::Scan::fused);
-  EXPECT_EQ(choices[1].settings.phi_cells, media::PhiCells::equal);
-  EXPECT_EQ(choices[2].settings.samples, 33);
-  EXPECT_EQ(choices[3].settings.steps, 44);
-  EXPECT_EQ(choices[3].settings.rays, reference::RayMode::single);
+  EXPECT_EQ(vsv_of(choices[0]).volume.resolution, (epipolar::Resolution{7, 200, 128}));
+  const media::VsvOptions& second = vsv_of(choices[1]);
+  EXPECT_EQ(second.volume.resolution, (epipolar::Resolution{100, 200, 256}));
+  EXPECT_EQ(second.integral, media::VsvIntegral::riemann);
+  EXPECT_EQ(second.volume.scan, epipolar::Scan::column);
+  EXPECT_EQ(second.volume.populate, epipolar::Populate::conservative);
+  EXPECT_EQ(second.phi_cells, media::PhiCells::equal);
+  EXPECT_EQ(choices[2].values().at("samples"), frame::OptionValue(33));
+  EXPECT_EQ(choices[3].values().at("steps"), frame::OptionValue(44));
+  EXPECT_EQ(choices[3].values().at("rays"), frame::OptionValue("single"));
   EXPECT_EQ(choices[4].method->name, "none");
+  EXPECT_TRUE(choices[4].values().empty());
 }
 
 TEST(MethodSpec, MistakesAreNamedWithWhatIsValid) {
@@ -60,13 +68,15 @@ TEST(MethodSpec, MistakesAreNamedWithWhatIsValid) {
   EXPECT_THAT(complaint("vsv,"), HasSubstr("''"));
   EXPECT_THAT(complaint("vsv:"), HasSubstr("no key ''"));
   EXPECT_THAT(complaint("vsv:steps=3"), testing::AllOf(HasSubstr("'steps'"), HasSubstr("integral")));
-  EXPECT_THAT(complaint("vsv:alpha"), HasSubstr("no value"));
+  EXPECT_THAT(complaint("vsv:alpha"), testing::AllOf(HasSubstr("no value"), HasSubstr("131072")));
   EXPECT_THAT(complaint("vsv:alpha="), HasSubstr("''"));
   EXPECT_THAT(complaint("vsv:alpha=-4"), testing::AllOf(HasSubstr("vsv:alpha=-4"), HasSubstr("'-4'")));
   EXPECT_THAT(complaint("vsv:alpha=4x"), HasSubstr("'4x'"));
   EXPECT_THAT(complaint("vsv:alpha=99999999999"), HasSubstr("'99999999999'"));
   EXPECT_THAT(complaint("vsv:phi=100"), HasSubstr("multiple of 128"));
+  EXPECT_THAT(complaint("vsv:phi=0"), HasSubstr("multiple of 128"));
   EXPECT_THAT(complaint("vsv:theta=many"), HasSubstr("theta"));
+  EXPECT_THAT(complaint("reference:samples=auto"), HasSubstr("'auto'"));
   EXPECT_THAT(complaint("vsv:populate=screen-space:scan=fused"), HasSubstr("column"));
   EXPECT_THAT(complaint("vsv:integral=sum"), testing::AllOf(HasSubstr("unknown"), HasSubstr("riemann")));
   EXPECT_THAT(complaint("none:alpha=4"), HasSubstr("it has none"));
@@ -74,50 +84,134 @@ TEST(MethodSpec, MistakesAreNamedWithWhatIsValid) {
 }
 
 TEST(MethodSpec, OfSurfacesHasItsOwnMethods) {
-  EXPECT_EQ(parse_surfaces("none,shadow-map,vsv:theta=64,reference", {}).size(), 4u);
-  EXPECT_THROW(parse_surfaces("reference-march", {}), Error);
-  EXPECT_THROW(parse_surfaces("vsv:integral=table", {}), Error);
+  EXPECT_EQ(parse_surfaces("none,shadow-map,vsv:theta=64,reference").size(), 4u);
+  EXPECT_THROW(parse_surfaces("reference-march"), Error);
+  EXPECT_THROW(parse_surfaces("vsv:integral=table"), Error);
 }
 
-TEST(Registry, EveryKeyOfAMethodExistsAndReadsBackWhatWasSet) {
-  for (const VolumeMethod& method : volume_methods()) {
-    const VolumeChoice choice{std::string(method.name), &method, {}};
-    for (const auto& [name, value] : choice.values()) {
-      Settings settings;
-      const std::string text = std::holds_alternative<int>(value) ? std::to_string(std::get<int>(value))
-                                                                  : std::get<std::string>(value);
-      key(name).set(settings, "--" + name, text);
-      EXPECT_EQ(key(name).get(settings), value) << method.name << ", " << name;
+TEST(MethodSpec, ACommonOptionIsCheckedEvenWhereNoMethodReadsIt) {
+  EXPECT_THROW(require_valid({"--alpha", "alpha", "0"}), Error);
+  EXPECT_NO_THROW(require_valid({"--alpha", "alpha", "auto"}));
+}
+
+template <typename MethodType>
+class Registry : public testing::Test {};
+
+struct Volumes {
+  static auto methods() { return volume_methods(); }
+};
+struct Surfaces {
+  static auto methods() { return surface_methods(); }
+};
+using Registries = testing::Types<Volumes, Surfaces>;
+TYPED_TEST_SUITE(Registry, Registries);
+
+TYPED_TEST(Registry, EveryValueOfEveryOptionReadsBackAsItWasSet) {
+  for (const auto& method : TypeParam::methods()) {
+    for (const frame::Option& option : method.options) {
+      std::vector<std::string> values;
+      if (const auto* words = std::get_if<frame::Words>(&option.values)) {
+        for (const frame::Word& word : *words) values.emplace_back(word.word);
+      } else {
+        const auto& counts = std::get<frame::Counts>(option.values);
+        values = {std::to_string(counts.least), std::to_string(counts.most)};
+        if (!counts.automatic.empty()) values.emplace_back("auto");
+      }
+      for (const std::string_view value : option.text.sweep) values.emplace_back(value);
+      for (const std::string& value : values) {
+        std::any options = method.defaults;
+        option.set(method.address(options), "here", value);
+        EXPECT_EQ(frame::text_of(option.get(method.const_address(options))), value)
+            << method.name << ", " << option.text.name;
+      }
     }
   }
 }
 
-TEST(SharedReference, TracesTheTruthOnceAndChargesForItTwice) {
+TYPED_TEST(Registry, DescribesEveryMethodAndOptionOnce) {
+  std::vector<std::string_view> names;
+  for (const auto& method : TypeParam::methods()) {
+    names.push_back(method.name);
+    EXPECT_FALSE(method.description.empty()) << method.name;
+    EXPECT_EQ(method.name.find_first_of(":=, +"), std::string_view::npos) << method.name;
+    std::vector<std::string_view> options;
+    for (const frame::Option& option : method.options) {
+      options.push_back(option.text.name);
+      EXPECT_FALSE(option.text.meaning.empty() || option.text.quality.empty() || option.text.cost.empty())
+          << method.name << ", " << option.text.name;
+    }
+    std::sort(options.begin(), options.end());
+    EXPECT_EQ(std::adjacent_find(options.begin(), options.end()), options.end()) << method.name;
+  }
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
+}
+
+scene::Geometry open_triangle() {
   scene::Geometry geometry;
   geometry.positions = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
   geometry.triangles = {{0, 1, 2}};
   geometry.material_of_triangle = {0};
   geometry.materials = {{}};
+  return geometry;
+}
+
+TEST(MethodChoice, FitsAutomaticCountsToTheViewAndItsLights) {
+  scene::View view;
+  view.camera = {"", {0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 45};
+  view.lights = {scene::point_light("", {0.1, 0.2, 0.0}, glm::vec3(1.0f))};
+  const auto fitted = [&](const char* spec) {
+    VolumeChoice choice = parse_volumes(spec)[0];
+    choice.fit(view);
+    return vsv_of(choice).volume.resolution;
+  };
+  EXPECT_EQ(fitted("vsv"), (epipolar::Resolution{512, 2048, 512}));
+  const epipolar::Resolution in_view = fitted("vsv:alpha=auto:theta=auto:phi=auto");
+  EXPECT_EQ(in_view.phi, 512);
+  EXPECT_GT(in_view.theta, 512);
+  view.lights = {scene::point_light("", {9, 0, 0}, glm::vec3(1.0f))};
+  const epipolar::Resolution aside = fitted("vsv:alpha=auto:theta=auto");
+  EXPECT_NE(aside, in_view);
+  view.lights.push_back(scene::point_light("", {0.1, 0.2, 0.0}, glm::vec3(1.0f)));
+  const epipolar::Resolution both = fitted("vsv:alpha=auto:theta=auto");
+  EXPECT_EQ(both.alpha, std::max(aside.alpha, in_view.alpha));
+  EXPECT_EQ(both.theta, std::max(aside.theta, in_view.theta));
+}
+
+TEST(MethodChoice, ThatTakesPartsForSolidsWarnsOfOpenOnes) {
+  scene::Scene scene;
+  scene.geometry = open_triangle();
+  const auto surfaces = parse_surfaces("shadow-map");
+  warn_of_open_parts(parse_volumes("vsv"), surfaces, scene);
+  EXPECT_TRUE(scene.report.warnings.empty());
+  warn_of_open_parts(parse_volumes("vsv:populate=screen-space"), surfaces, scene);
+  ASSERT_EQ(scene.report.warnings.size(), 1u);
+  EXPECT_THAT(scene.report.warnings[0],
+              testing::AllOf(HasSubstr("vsv:populate=screen-space"), HasSubstr("3 edges with one triangle")));
+}
+
+TEST(SharedReference, TracesTheTruthOnceAndChargesForItTwice) {
+  const scene::Geometry geometry = open_triangle();
   scene::View view;
   view.camera = {"", {0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 45};
   view.lights[0].position = {1, 2, 3};
   view.size = {8, 8};
   SharedReference shared(geometry, view, {});
 
-  const reference::AirlightImage* image = &shared.converged(16);
+  const reference::AirlightImage* image = &shared.converged(0, 16);
   const SharedReference::Work first = shared.take_work();
   EXPECT_GT(first.airlight_rays, 0u);
   EXPECT_EQ(first.kept_airlight_ms, 0.0);
-  EXPECT_EQ(&shared.converged(16), image);
+  EXPECT_EQ(&shared.converged(0, 16), image);
   const SharedReference::Work second = shared.take_work();
   EXPECT_EQ(second.airlight_rays, first.airlight_rays);
   EXPECT_EQ(second.kept_airlight_ms, first.airlight_ms);
-  EXPECT_NE(&shared.converged(32), image);
+  EXPECT_NE(&shared.converged(0, 32), image);
   EXPECT_EQ(shared.take_work().kept_airlight_ms, 0.0);
 
-  shared.surfaces();
+  shared.surfaces(0);
   EXPECT_EQ(shared.take_work().kept_surface_ms, 0.0);
-  shared.surfaces();
+  shared.surfaces(0);
   EXPECT_GT(shared.take_work().kept_surface_ms, 0.0);
 }
 

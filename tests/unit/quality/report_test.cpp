@@ -21,9 +21,9 @@ Comparison one_run() {
   run.settings = {{"alpha", 64}};
   run.surface_settings = {{"theta", 32}};
   run.debug_images = {{"vsv_alpha-64+shadow-map_grid", "the grid, rows of θ", 0.25f}};
-  run.stages_ms = {{"scan", 3.5}};
-  run.frame_ms = 1.0;
-  run.airlight_error.rrmse = 0.0005;
+  run.cost.stages_ms = {{"scan", 3.5}};
+  run.cost.frame_ms = 1.0;
+  run.errors.airlight.rrmse = 0.0005;
   comparison.runs = {run};
   return comparison;
 }

@@ -25,18 +25,18 @@ Comparison two_runs() {
   vsv.settings = {{"alpha", 512}, {"integral", std::string("table")}};
   vsv.surface_settings = {{"theta", 64}};
   vsv.debug_images = {{"vsv+shadow-map_grid", "the grid", 0.5f}};
-  vsv.stages_ms = {{"scan", 3.0}};
-  vsv.frame_ms = 4.0;
+  vsv.cost.stages_ms = {{"scan", 3.0}};
+  vsv.cost.frame_ms = 4.0;
   vsv.march_ratio = 5.0;
-  vsv.airlight_error.rrmse = 0.0123;
-  vsv.airlight_error.bias = -0.00042;
+  vsv.errors.airlight.rrmse = 0.0123;
+  vsv.errors.airlight.bias = -0.00042;
   Run march = vsv;
   march.volume = "reference-march";
-  march.stages_ms = {{"integrate", 20.0}};
+  march.cost.stages_ms = {{"integrate", 20.0}};
   march.debug_images = {};
-  march.rays = 1'000'000;
-  march.mrays_per_s = 50.0;
-  march.airlight_error.rrmse = 0.0005;
+  march.cost.rays = 1'000'000;
+  march.cost.mrays_per_s = 50.0;
+  march.errors.airlight.rrmse = 0.0005;
   comparison.runs = {vsv, march};
   return comparison;
 }
@@ -66,7 +66,7 @@ TEST(ResultsJson, WritesSinglePrecisionWithTheDigitsItHas) {
 
 TEST(ResultsJson, HasNoInfinityAndSurvivesAnyFileName) {
   Comparison comparison = two_runs();
-  comparison.runs[0].airlight_error.rrmse = std::numeric_limits<double>::infinity();
+  comparison.runs[0].errors.airlight.rrmse = std::numeric_limits<double>::infinity();
   comparison.scene = "\xff.obj";
   const json results = json::parse(results_json(comparison));
   EXPECT_TRUE(results["runs"][0]["error"]["airlight"]["rrmse"].is_null());
@@ -111,6 +111,14 @@ TEST(ViewOptions, NameTheWeightOfAPhaseFunctionThatHasOne) {
 TEST(WriteText, NamesTheFileThatCannotBeWritten) {
   EXPECT_THROW(write_text("/dev/full", "text"), scene::Error);
   EXPECT_THROW(write_text("/dev/null/file", "text"), scene::Error);
+}
+
+TEST(ShellQuote, QuotesWhatAShellWouldTouch) {
+  EXPECT_EQ(shell_quote("vsv:integral=riemann,none"), "vsv:integral=riemann,none");
+  EXPECT_EQ(shell_quote("a b"), "'a b'");
+  EXPECT_EQ(shell_quote("it's"), "'it'\\''s'");
+  EXPECT_EQ(shell_quote("$(x)"), "'$(x)'");
+  EXPECT_EQ(shell_quote(""), "''");
 }
 
 }  // namespace

@@ -10,13 +10,17 @@
 namespace airlight::scene {
 namespace {
 
+Components components_of(const Geometry& geometry) {
+  return find_components(geometry, find_edges(geometry));
+}
+
 using tests::add_box;
 
 TEST(Components, BoxesApartAreWatertight) {
   Geometry geometry;
   add_box(geometry, {0, 0, 0}, {1, 1, 1});
   add_box(geometry, {2, 0, 0}, {3, 1, 1});
-  const Components components = find_components(geometry);
+  const Components components = components_of(geometry);
   EXPECT_EQ(components.count, 2u);
   EXPECT_TRUE(components.is_watertight());
   ASSERT_EQ(components.of_triangle.size(), 24u);
@@ -28,7 +32,7 @@ TEST(Components, MissingTriangleLeavesThreeOpenEdges) {
   add_box(geometry, {0, 0, 0}, {1, 1, 1});
   add_box(geometry, {2, 0, 0}, {3, 1, 1});
   geometry.triangles.pop_back();
-  const Components components = find_components(geometry);
+  const Components components = components_of(geometry);
   EXPECT_FALSE(components.is_watertight());
   EXPECT_EQ(components.open_edges, 3u);
   EXPECT_EQ(components.open_components, 1u);
@@ -39,7 +43,7 @@ TEST(Components, FinOnABoxIsAnOddEdge) {
   Geometry geometry;
   add_box(geometry, {0, 0, 0}, {1, 1, 1});
   tests::add_triangle(geometry, {0, 0, 0}, {1, 0, 0}, {0, -1, 0});
-  const Components components = find_components(geometry);
+  const Components components = components_of(geometry);
   EXPECT_EQ(components.count, 1u);
   EXPECT_EQ(components.odd_edges, 1u);
   EXPECT_EQ(components.open_edges, 2u);
@@ -49,15 +53,15 @@ TEST(Components, BoxThereTwiceCancels) {
   Geometry geometry;
   add_box(geometry, {0, 0, 0}, {1, 1, 1});
   add_box(geometry, {0, 0, 0}, {1, 1, 1});
-  const Components components = find_components(geometry);
+  const Components components = components_of(geometry);
   EXPECT_EQ(components.duplicate_triangles, 12u);
   EXPECT_EQ(components.open_edges + components.odd_edges, 0u);
   EXPECT_FALSE(components.is_watertight());
 }
 
 TEST(Components, NoTrianglesAreNoComponents) {
-  EXPECT_EQ(find_components({}).count, 0u);
-  EXPECT_TRUE(find_components({}).is_watertight());
+  EXPECT_EQ(components_of({}).count, 0u);
+  EXPECT_TRUE(components_of({}).is_watertight());
 }
 
 struct Model {
@@ -75,7 +79,7 @@ TEST_P(ComponentsOf, SharedModelsAreCounted) {
   const Model& model = GetParam();
   const auto file = tests::shared_file(std::string("scenes/") + model.name + ".glb");
   AIRLIGHT_NEEDS(file);
-  const Components components = find_components(import_scene(file).geometry);
+  const Components components = components_of(import_scene(file).geometry);
   EXPECT_EQ(components.count, model.parts);
   EXPECT_EQ(components.open_components, model.open_parts);
   EXPECT_EQ(components.open_edges, model.open_edges);

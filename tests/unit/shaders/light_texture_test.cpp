@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "frame/view_block.h"
+#include "frame/blocks.h"
 
 /// shaders/frame/light_texture.glsl.
 namespace airlight::shaders {

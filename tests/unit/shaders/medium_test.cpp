@@ -39,7 +39,6 @@ MediumBlock make_medium(glm::vec3 sigma_t, float g, float rayleigh_weight = 0.0f
   medium.sigma_t = sigma_t;
   medium.g = g;
   medium.rayleigh_weight = rayleigh_weight;
-  medium.intensity = {1, 2, 3};
   return medium;
 }
 
@@ -242,8 +241,10 @@ TEST(IntegrateCell, SumsToTheIntegralOfTheWholeRay) {
 TEST(AirlightScale, IsTheFactorBeforeTheIntegral) {
   EpipolarBlock space{};
   space.distance = 4.0f;
-  MediumBlock medium = make_medium({0.5f, 0.25f, 0.125f}, 0.0f);
-  const glm::vec3 scale = airlight_scale(space, medium, 0.5f);
+  const MediumBlock medium = make_medium({0.5f, 0.25f, 0.125f}, 0.0f);
+  LightBlock light{};
+  light.intensity = {1, 2, 3};
+  const glm::vec3 scale = airlight_scale(space, light, medium, 0.5f);
   EXPECT_FLOAT_EQ(scale.x, 0.25f);
   EXPECT_FLOAT_EQ(scale.y, 0.25f);
   EXPECT_FLOAT_EQ(scale.z, 0.1875f);

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "frame/view_block.h"
+#include "frame/blocks.h"
 #include "support/random.h"
 
 /// shaders/frame/shadow_cube.glsl.

@@ -1,11 +1,11 @@
-// The view as the shaders see it: all positions relative to the eye, so that coordinates far from the origin cost
+// The camera as the shaders see it: all positions relative to the eye, so that coordinates far from the origin cost
 // no precision.
-#ifndef AIRLIGHT_VIEW_GLSL
-#define AIRLIGHT_VIEW_GLSL
+#ifndef AIRLIGHT_CAMERA_GLSL
+#define AIRLIGHT_CAMERA_GLSL
 #include "shared.glsl"
 
-// One uniform block (std140) for all stages of a frame; written by frame/frame.cpp.
-struct ViewBlock {
+// A uniform block (std140), written once a frame by frame/blocks.cpp.
+struct CameraBlock {
   vec3 eye_high;     // eye, world space [m], rounded to float …
   float half_width;  // tangent of half the horizontal field of view
   vec3 eye_low;      // … and what the rounding left
@@ -15,29 +15,23 @@ struct ViewBlock {
   vec3 up;
   float image_height;
   vec3 forward;
-  float eye_near;    // depth [m] below which the G-buffer no longer orders surfaces
-  vec3 light;        // light − eye, world axes [m]
-  float light_near;  // depth [m] below which the shadow map no longer orders surfaces
-  vec3 intensity;    // radiant intensity of the light [W/sr]
-  float shadow_map_size;  // side of a cube face [texels]
-  vec3 sigma_t;      // extinction coefficient [1/m]
-  float padding;
+  float near;        // depth [m] below which the G-buffer no longer orders surfaces
 };
 
 // Position relative to the eye of a world-space position. Exact where the two are close (Sterbenz).
-FUNCTION vec3 eye_relative(IN(ViewBlock) view, vec3 world) { return (world - view.eye_high) - view.eye_low; }
+FUNCTION vec3 eye_relative(IN(CameraBlock) camera, vec3 world) { return (world - camera.eye_high) - camera.eye_low; }
 
 // Unit direction of the view ray through a point of the image, in pixels from its top left corner; pixel centres lie
 // at half-integers.
-FUNCTION vec3 view_ray(IN(ViewBlock) view, vec2 pixel) {
-  float x = (2.0f * pixel.x / view.image_width - 1.0f) * view.half_width;
-  float y = (1.0f - 2.0f * pixel.y / view.image_height) * view.half_height;
-  return normalize(view.forward + x * view.right + y * view.up);
+FUNCTION vec3 view_ray(IN(CameraBlock) camera, vec2 pixel) {
+  float x = (2.0f * pixel.x / camera.image_width - 1.0f) * camera.half_width;
+  float y = (1.0f - 2.0f * pixel.y / camera.image_height) * camera.half_height;
+  return normalize(camera.forward + x * camera.right + y * camera.up);
 }
 
 // Tangent of the angle that a quarter of a pixel spans at the image's centre: no view ray is taken to be nearer to the light's
 // direction than this, where airlight grows as 1/sin(α).
-FUNCTION float quarter_pixel(IN(ViewBlock) view) { return 0.5f * view.half_height / view.image_height; }
+FUNCTION float quarter_pixel(IN(CameraBlock) camera) { return 0.5f * camera.half_height / camera.image_height; }
 
 // Distance along the unit ray `ray` from the eye to the plane of the triangle (a, b, c), positions relative to the
 // eye. Kept between the triangle's extremes along the ray, which matters for a triangle seen edge-on, whose plane

@@ -1,4 +1,4 @@
-#include "quality/compare.h"
+#include "quality/pictures.h"
 
 #include <gtest/gtest.h>
 
@@ -47,20 +47,12 @@ TEST(ErrorColours, AreFullAgainstABlackReference) {
   EXPECT_EQ(error_colours({glm::vec3(1e-6f)}, black)[0].g, 0.0f);
 }
 
-TEST(ShellQuote, QuotesWhatAShellWouldTouch) {
-  EXPECT_EQ(shell_quote("vsv:integral=riemann,none"), "vsv:integral=riemann,none");
-  EXPECT_EQ(shell_quote("a b"), "'a b'");
-  EXPECT_EQ(shell_quote("it's"), "'it'\\''s'");
-  EXPECT_EQ(shell_quote("$(x)"), "'$(x)'");
-  EXPECT_EQ(shell_quote(""), "''");
-}
-
 TEST(ExrImage, HasTheChannelsOfARender) {
   frame::FrameImages images;
   images.size = {1, 1};
   images.radiance = {{1, 2, 3}};
   images.airlight = {{4, 5, 6}};
-  images.visibility = {1};
+  images.visibility = {{1}};
   images.distance = {7};
   const Image image = exr_image(images, {{"airlight.scene", "hall"}});
   EXPECT_EQ(image.channels.at("B"), std::vector<float>{3});

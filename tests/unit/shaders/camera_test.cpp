@@ -2,84 +2,85 @@
 
 #include <gtest/gtest.h>
 
-#include "frame/view_block.h"
+#include "frame/blocks.h"
 #include "scene/scene.h"
 #include "support/random.h"
 
-/// shaders/frame/view.glsl.
+/// shaders/frame/camera.glsl.
 namespace airlight::shaders {
 namespace {
 
 using tests::Random;
 
-ViewBlock make_view(const scene::Camera& camera, glm::ivec2 size) {
-  const scene::CameraFrame frame = scene::camera_frame(camera, size);
-  ViewBlock view{};
-  view.eye_high = glm::vec3(frame.eye);
-  view.eye_low = glm::vec3(frame.eye - glm::dvec3(view.eye_high));
-  view.half_width = static_cast<float>(frame.half_width);
-  view.half_height = static_cast<float>(frame.half_height);
-  view.right = glm::vec3(frame.right);
-  view.up = glm::vec3(frame.up);
-  view.forward = glm::vec3(frame.forward);
-  view.image_width = static_cast<float>(size.x);
-  view.image_height = static_cast<float>(size.y);
-  return view;
+CameraBlock make_camera(const scene::Camera& of, glm::ivec2 size) {
+  const scene::CameraFrame frame = scene::camera_frame(of, size);
+  CameraBlock camera{};
+  camera.eye_high = glm::vec3(frame.eye);
+  camera.eye_low = glm::vec3(frame.eye - glm::dvec3(camera.eye_high));
+  camera.half_width = static_cast<float>(frame.half_width);
+  camera.half_height = static_cast<float>(frame.half_height);
+  camera.right = glm::vec3(frame.right);
+  camera.up = glm::vec3(frame.up);
+  camera.forward = glm::vec3(frame.forward);
+  camera.image_width = static_cast<float>(size.x);
+  camera.image_height = static_cast<float>(size.y);
+  return camera;
 }
 
 TEST(ViewRay, GoesThroughTheCentreAndTheCorners) {
-  const ViewBlock view =
-      make_view({.name = {}, .eye = {1, 2, 3}, .target = {4, -1, 2}, .vertical_fov_degrees = 60}, {40, 20});
-  const glm::vec3 centre = view_ray(view, {20.0f, 10.0f});
-  for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(centre[axis], view.forward[axis], 1e-6f);
-  const glm::vec3 top_left = view_ray(view, {0.0f, 0.0f});
-  EXPECT_NEAR(glm::dot(top_left, view.up) / glm::dot(top_left, view.forward), view.half_height, 1e-6f)
+  const CameraBlock camera =
+      make_camera({.name = {}, .eye = {1, 2, 3}, .target = {4, -1, 2}, .vertical_fov_degrees = 60}, {40, 20});
+  const glm::vec3 centre = view_ray(camera, {20.0f, 10.0f});
+  for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(centre[axis], camera.forward[axis], 1e-6f);
+  const glm::vec3 top_left = view_ray(camera, {0.0f, 0.0f});
+  EXPECT_NEAR(glm::dot(top_left, camera.up) / glm::dot(top_left, camera.forward), camera.half_height, 1e-6f)
       << "row 0 is at the top";
-  EXPECT_NEAR(glm::dot(top_left, view.right) / glm::dot(top_left, view.forward), -view.half_width, 1e-6f);
-  const glm::vec3 bottom_right = view_ray(view, {40.0f, 20.0f});
-  EXPECT_NEAR(glm::dot(bottom_right, view.up) / glm::dot(bottom_right, view.forward), -view.half_height,
+  EXPECT_NEAR(glm::dot(top_left, camera.right) / glm::dot(top_left, camera.forward), -camera.half_width,
               1e-6f);
-  EXPECT_NEAR(glm::dot(bottom_right, view.right) / glm::dot(bottom_right, view.forward), view.half_width,
+  const glm::vec3 bottom_right = view_ray(camera, {40.0f, 20.0f});
+  EXPECT_NEAR(glm::dot(bottom_right, camera.up) / glm::dot(bottom_right, camera.forward), -camera.half_height,
               1e-6f);
+  EXPECT_NEAR(glm::dot(bottom_right, camera.right) / glm::dot(bottom_right, camera.forward),
+              camera.half_width, 1e-6f);
 }
 
 TEST(ViewRay, IsTheDoublePrecisionRayOfTheCamera) {
   Random random(12);
   for (int i = 0; i < 5000; ++i) {
-    const scene::Camera camera{.name = {},
-                               .eye = random.in_box(5),
-                               .target = random.in_box(5),
-                               .vertical_fov_degrees = random.uniform(5, 120)};
+    const scene::Camera pinhole{.name = {},
+                                .eye = random.in_box(5),
+                                .target = random.in_box(5),
+                                .vertical_fov_degrees = random.uniform(5, 120)};
     const glm::ivec2 size(1 + static_cast<int>(random.uniform(0, 300)),
                           1 + static_cast<int>(random.uniform(0, 300)));
-    const scene::CameraFrame frame = scene::camera_frame(camera, size);
-    const ViewBlock view = make_view(camera, size);
+    const scene::CameraFrame frame = scene::camera_frame(pinhole, size);
+    const CameraBlock camera = make_camera(pinhole, size);
     const double x = random.uniform(0, size.x), y = random.uniform(0, size.y);
     const glm::dvec3 expected =
         glm::normalize(frame.forward + (2 * x / size.x - 1) * frame.half_width * frame.right +
                        (1 - 2 * y / size.y) * frame.half_height * frame.up);
-    const glm::vec3 ray = view_ray(view, glm::vec2(x, y));
+    const glm::vec3 ray = view_ray(camera, glm::vec2(x, y));
     EXPECT_LT(glm::length(glm::dvec3(ray) - expected), 1e-6);
     EXPECT_NEAR(glm::length(ray), 1.0f, 3e-7f);
   }
 }
 
 TEST(QuarterPixel, IsAQuarterOfTheAngleBetweenNeighboursAtTheCentre) {
-  const ViewBlock view =
-      make_view({.name = {}, .eye = {}, .target = {0, 0, -1}, .vertical_fov_degrees = 45}, {1024, 1024});
-  const glm::vec3 a = view_ray(view, {512.0f, 511.5f}), b = view_ray(view, {512.0f, 512.5f});
-  EXPECT_NEAR(quarter_pixel(view) / (0.25f * glm::length(glm::cross(a, b))), 1.0f, 1e-3f);
-  EXPECT_NEAR(static_cast<double>(quarter_pixel(view)), 0.25 * 2 * std::tan(glm::radians(22.5)) / 1024,
+  const CameraBlock camera =
+      make_camera({.name = {}, .eye = {}, .target = {0, 0, -1}, .vertical_fov_degrees = 45}, {1024, 1024});
+  const glm::vec3 a = view_ray(camera, {512.0f, 511.5f}), b = view_ray(camera, {512.0f, 512.5f});
+  EXPECT_NEAR(quarter_pixel(camera) / (0.25f * glm::length(glm::cross(a, b))), 1.0f, 1e-3f);
+  EXPECT_NEAR(static_cast<double>(quarter_pixel(camera)), 0.25 * 2 * std::tan(glm::radians(22.5)) / 1024,
               1e-10);
 }
 
 TEST(EyeRelative, LosesNothingFarFromTheOrigin) {
   // A millimetre beside an eye 1,000 km away, where single precision knows 6 cm: exact as far as the vertex
   // itself is.
-  const ViewBlock view =
-      make_view({.name = {}, .eye = {1e6 + 0.001, -1e6, 3.0}, .target = {0, 0, 0}}, {8, 8});
+  const CameraBlock camera =
+      make_camera({.name = {}, .eye = {1e6 + 0.001, -1e6, 3.0}, .target = {0, 0, 0}}, {8, 8});
   const glm::vec3 vertex(1e6f + 0.0625f, -1e6f, 2.0f);
-  const glm::vec3 relative = eye_relative(view, vertex);
+  const glm::vec3 relative = eye_relative(camera, vertex);
   EXPECT_NEAR(static_cast<double>(relative.x), 0.0625 - 0.001, 4e-9) << "the rounding of the result";
   EXPECT_EQ(relative.y, 0.0f);
   EXPECT_EQ(relative.z, -1.0f);

@@ -1,0 +1,72 @@
+#include "frame/resources.h"
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "scene/error.h"
+#include "scene/light_texture.h"
+
+namespace airlight::frame {
+
+Resources::Resources(gpu::Context& context, const scene::Geometry& geometry, int shadow_map_size)
+    : context_(context), geometry_(geometry), scene_(context, geometry), shadow_map_size_(shadow_map_size) {}
+
+void Resources::begin_frame() {
+  shadow_map_is_used_ = false;
+}
+
+void Resources::begin_light(const scene::Light& light) {
+  light_ = &light;
+  shadow_map_is_drawn_ = false;
+  if (light.texture == light_texture_) return;
+  light_texture_ = light.texture;
+  light_texture_texels_ = {};
+  if (!light_texture_) return;
+  const glm::ivec2 size = light_texture_->size();
+  const int limit = context_.limits().max_texture_size;
+  if (std::max(size.x, size.y) > limit) {
+    throw scene::Error(scene::ExitCode::driver, light_texture_->name(),
+                       fmt::format("{}x{} texels are more than this driver's {} (GL_MAX_TEXTURE_SIZE)",
+                                   size.x, size.y, limit),
+                       "scale the image down");
+  }
+  std::vector<glm::vec4> texels;
+  texels.reserve(light_texture_->texels().size());
+  for (const glm::vec3& texel : light_texture_->texels()) texels.emplace_back(texel, 0.0f);
+  light_texture_texels_ = gpu::Texture(gpu::Format::rgba32f, size);
+  light_texture_texels_.write(texels.data());
+  light_texture_texels_.sample_bilinearly_around();
+}
+
+const ShadowMap& Resources::shadow_map(gpu::StageTimer& timer) {
+  if (!shadow_map_) shadow_map_.emplace(context_, shadow_map_size_);
+  if (!shadow_map_is_drawn_) {
+    timer.time("shadow_map", [&] { shadow_map_->draw(scene_, light_->position); });
+    shadow_map_is_drawn_ = shadow_map_is_used_ = true;
+  }
+  return *shadow_map_;
+}
+
+const scene::Edges& Resources::edges(gpu::StageTimer& timer) {
+  if (!edges_) timer.time("edges", [&] { edges_ = scene::find_edges(geometry_); });
+  return *edges_;
+}
+
+const scene::Components& Resources::components(gpu::StageTimer& timer) {
+  if (!components_) {
+    const scene::Edges& of_scene = edges(timer);
+    timer.time("components", [&] { components_ = scene::find_components(geometry_, of_scene); });
+  }
+  return *components_;
+}
+
+std::map<std::string, std::int64_t> Resources::bytes() const {
+  std::map<std::string, std::int64_t> bytes = {{"scene", scene_.bytes()}};
+  if (shadow_map_is_used_) bytes["shadow_map"] = shadow_map_->depth().bytes();
+  if (light_texture_) bytes["light_texture"] = light_texture_texels_.bytes();
+  return bytes;
+}
+
+}  // namespace airlight::frame

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "frame/scene_buffers.h"
+#include "frame/shadow_map.h"
+#include "gpu/texture.h"
+#include "gpu/timer.h"
+#include "scene/components.h"
+#include "scene/edges.h"
+
+namespace airlight::frame {
+
+/// What the steps of a frame may ask for beside what they are always given. Each thing is made when it is
+/// first asked for: of the scene once, of a light once a frame. The time of making it is a stage of its own,
+/// whoever asks, and its memory counts in the frames that used it.
+class Resources {
+ public:
+  /// @param geometry kept by reference
+  /// @param shadow_map_size side of a cube face [texels]
+  Resources(gpu::Context& context, const scene::Geometry& geometry, int shadow_map_size);
+
+  const scene::Geometry& geometry() const { return geometry_; }
+  const SceneBuffers& scene() const { return scene_; }
+  int shadow_map_size() const { return shadow_map_size_; }
+
+  void begin_frame();
+
+  /// What is asked for from now on is this light's. Its block is bound.
+  /// @throws scene::Error (driver) for a texture over the driver's limit
+  void begin_light(const scene::Light& light);
+
+  /// Stage `shadow_map`. @throws scene::Error (driver) for one over the driver's limit
+  const ShadowMap& shadow_map(gpu::StageTimer& timer);
+
+  /// rgba32f, by direction (light_texture.glsl); nullptr where the light has none.
+  const gpu::Texture* light_texture() const { return light_texture_ ? &light_texture_texels_ : nullptr; }
+
+  /// Stage `edges`.
+  const scene::Edges& edges(gpu::StageTimer& timer);
+
+  /// Stage `components`.
+  const scene::Components& components(gpu::StageTimer& timer);
+
+  /// GPU memory of what the last frame used, by name.
+  std::map<std::string, std::int64_t> bytes() const;
+
+ private:
+  gpu::Context& context_;
+  const scene::Geometry& geometry_;
+  SceneBuffers scene_;
+  int shadow_map_size_;
+
+  std::optional<ShadowMap> shadow_map_;
+  const scene::Light* light_ = nullptr;  ///< whose things are asked for
+  bool shadow_map_is_drawn_ = false;     ///< for that light
+  bool shadow_map_is_used_ = false;      ///< in this frame
+
+  std::shared_ptr<const scene::LightTexture> light_texture_;  ///< the one on the GPU
+  gpu::Texture light_texture_texels_;
+
+  std::optional<scene::Edges> edges_;
+  std::optional<scene::Components> components_;
+};
+
+}  // namespace airlight::frame

@@ -1,0 +1,28 @@
+#include "quality/judge.h"
+
+#include <span>
+
+namespace airlight::quality {
+namespace {
+
+std::span<const float> floats(const std::vector<glm::vec3>& image) {
+  return {image.empty() ? nullptr : &image[0].x, 3 * image.size()};
+}
+
+}  // namespace
+
+Errors judge(const frame::FrameImages& images, const Truth& truth) {
+  Errors errors;
+  errors.airlight = airlight_error(floats(images.airlight), floats(truth.airlight));
+  errors.same_surface =
+      same_surface_error(floats(images.airlight), images.distance, floats(truth.airlight), truth.distance);
+  for (std::size_t light = 0; light < truth.visibility.size(); ++light) {
+    const SurfaceError error =
+        surface_error(images.visibility[light], images.distance, truth.visibility[light], truth.distance);
+    errors.surface.wrong_pixels += error.wrong_pixels;
+    errors.surface.pixels += error.pixels;
+  }
+  return errors;
+}
+
+}  // namespace airlight::quality

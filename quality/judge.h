@@ -1,0 +1,18 @@
+#pragma once
+
+#include "frame/frame.h"
+#include "quality/metrics.h"
+#include "quality/truth.h"
+
+namespace airlight::quality {
+
+/// How far a frame is from the truth.
+struct Errors {
+  AirlightError airlight{};
+  SameSurfaceError same_surface{};  ///< the airlight's
+  SurfaceError surface{};           ///< over the surfaces of all lights
+};
+
+Errors judge(const frame::FrameImages& images, const Truth& truth);
+
+}  // namespace airlight::quality

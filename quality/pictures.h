@@ -1,0 +1,27 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "frame/frame.h"
+#include "quality/image_io.h"
+
+namespace airlight::quality {
+
+/// An image with the channels R,G,B; airlight.R,G,B; surface.Y, the mean over lights; distance.Y.
+Image exr_image(const frame::FrameImages& images, std::map<std::string, std::string> metadata);
+
+/// The exposure that maps the 95th percentile of the pixels' largest channel to 0.8; where that is black, the
+/// largest value; 1 for a black image.
+float automatic_exposure(const std::vector<glm::vec3>& radiance);
+
+/// The size, relative to the reference's mean airlight, of an error below which a heat map is white, and of
+/// the one from which on its colour is full.
+constexpr double k_error_white = 1e-3, k_error_full = 1.0;
+
+/// A signed heat map of x − r, averaged over RGB, relative to mean(r): white below `k_error_white`, then
+/// logarithmic up to `k_error_full`; red where x is too bright, blue where it is too dark. Linear colours.
+std::vector<glm::vec3> error_colours(const std::vector<glm::vec3>& x, const std::vector<glm::vec3>& r);
+
+}  // namespace airlight::quality

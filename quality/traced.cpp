@@ -1,0 +1,210 @@
+#include "quality/traced.h"
+
+#include <chrono>
+
+namespace airlight::quality {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+void upload(const std::vector<glm::vec3>& image, const gpu::Texture& texture) {
+  std::vector<glm::vec4> rgba;
+  rgba.reserve(image.size());
+  for (const glm::vec3& value : image) rgba.emplace_back(value, 0.0f);
+  texture.write(rgba.data());
+}
+
+struct ConvergedOptions {
+  int samples = 512;
+};
+
+class ConvergedAirlight : public frame::Airlight, public Traced {
+ public:
+  explicit ConvergedAirlight(const ConvergedOptions& options) : options_(options) {}
+  void borrow(SharedReference& shared) override {
+    shared_ = &shared;
+    shared.prepare_truth(options_.samples);
+  }
+  void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override {
+    inputs.timer.time("integrate", [&] {
+      upload(shared_->converged(inputs.light_index, options_.samples).radiance, radiance);
+    });
+  }
+
+ private:
+  ConvergedOptions options_;
+  SharedReference* shared_ = nullptr;
+};
+
+struct MarchOptions {
+  int steps = 512;
+  reference::RayMode rays = reference::RayMode::packet;
+};
+
+class MarchedAirlight : public frame::Airlight, public Traced {
+ public:
+  explicit MarchedAirlight(const MarchOptions& options) : options_(options) {}
+  void borrow(SharedReference& shared) override {
+    shared_ = &shared;
+    shared.prepare();
+  }
+  void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override {
+    inputs.timer.time("integrate", [&] {
+      upload(shared_->march(inputs.light_index, options_.steps, options_.rays).radiance, radiance);
+    });
+  }
+
+ private:
+  MarchOptions options_;
+  SharedReference* shared_ = nullptr;
+};
+
+class TracedShadow : public frame::SurfaceShadow, public Traced {
+ public:
+  void borrow(SharedReference& shared) override {
+    shared_ = &shared;
+    shared.prepare();
+  }
+  void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override {
+    inputs.timer.time("surface_query",
+                      [&] { visibility.write(shared_->surfaces(inputs.light_index).visibility.data()); });
+  }
+
+ private:
+  SharedReference* shared_ = nullptr;
+};
+
+constexpr frame::Traits k_truth = {.runs_on_gpu = false, .is_truth = true};
+
+}  // namespace
+
+frame::AirlightMethod reference_method() {
+  return frame::describe<frame::Airlight, ConvergedOptions>(
+      "reference", "converged ray tracing on the CPU (Embree): the truth", k_truth,
+      {frame::count_option({.name = "samples",
+                            .meaning = "uniform steps in the light angle that look for changes of visibility",
+                            .quality = "shadows and light that lie wholly between two are missed",
+                            .cost = "rays"},
+                           frame::Counts{.least = 2}, &ConvergedOptions::samples)},
+      [](const gpu::Context&, const ConvergedOptions& options) {
+        return std::make_unique<ConvergedAirlight>(options);
+      });
+}
+
+frame::AirlightMethod reference_march_method() {
+  frame::Traits traits = k_truth;
+  traits.is_yardstick = true;
+  return frame::describe<frame::Airlight, MarchOptions>(
+      "reference-march", "ray marching with shadow rays on the CPU (Embree)", traits,
+      {frame::count_option({.name = "steps",
+                            .meaning = "shadow rays a view ray",
+                            .quality = "too few show as noise",
+                            .cost = "rays",
+                            .sweep = {"32", "128", "512"}},
+                           frame::Counts{}, &MarchOptions::steps),
+       frame::word_option({.name = "rays",
+                           .meaning = "how shadow rays are traced",
+                           .quality = "none",
+                           .cost = "packets are faster where neighbouring rays stay together",
+                           .sweep = {"single", "packet"}},
+                          {{"single"}, {"packet"}}, &MarchOptions::rays)},
+      [](const gpu::Context&, const MarchOptions& options) {
+        return std::make_unique<MarchedAirlight>(options);
+      });
+}
+
+frame::SurfaceMethod reference_surface_method() {
+  frame::Traits traits = k_truth;
+  traits.is_exact = true;
+  return frame::describe<frame::SurfaceShadow, frame::NoOptions>(
+      "reference", "one shadow ray a pixel on the CPU (Embree): the truth", traits, {},
+      [](const gpu::Context&, const frame::NoOptions&) { return std::make_unique<TracedShadow>(); });
+}
+
+SharedReference::SharedReference(const scene::Geometry& geometry, const scene::View& view, Progress progress,
+                                 const std::filesystem::path& cache)
+    : geometry_(geometry), view_(view), progress_(std::move(progress)), lights_(view.lights.size()) {
+  if (!cache.empty()) cache_.emplace(cache, geometry, view);
+}
+
+const reference::Reference& SharedReference::rays(std::size_t light) {
+  OfLight& of_light = lights_[light];
+  if (!of_light.rays) of_light.rays.emplace(geometry_, view_, light);
+  return *of_light.rays;
+}
+
+void SharedReference::prepare() {
+  for (std::size_t light = 0; light < lights_.size(); ++light) rays(light);
+}
+
+void SharedReference::prepare_truth(int samples) {
+  for (std::size_t light = 0; light < lights_.size(); ++light) {
+    if (!load_converged(light, samples) || !load_surfaces(light)) rays(light);
+  }
+}
+
+reference::Progress SharedReference::report(const std::string& what) const {
+  if (!progress_) return {};
+  return [this, what](double fraction) { progress_(what, fraction); };
+}
+
+bool SharedReference::load_surfaces(std::size_t light) {
+  OfLight& of_light = lights_[light];
+  if (of_light.surfaces) return true;
+  auto kept = cache_ ? cache_->load_surfaces(light) : std::nullopt;
+  if (!kept) return false;
+  of_light.surfaces = std::move(kept->image);
+  of_light.surfaces_ms = kept->ms;
+  return true;
+}
+
+bool SharedReference::load_converged(std::size_t light, int samples) {
+  OfLight& of_light = lights_[light];
+  if (of_light.converged.contains(samples)) return true;
+  auto kept = cache_ ? cache_->load_converged(light, samples) : std::nullopt;
+  if (!kept) return false;
+  of_light.converged.emplace(samples, std::move(*kept));
+  return true;
+}
+
+const reference::SurfaceImage& SharedReference::surfaces(std::size_t light) {
+  OfLight& of_light = lights_[light];
+  if (load_surfaces(light)) {
+    work_.kept_surface_ms += of_light.surfaces_ms;
+    return *of_light.surfaces;
+  }
+  const reference::Reference& reference = rays(light);
+  const auto start = Clock::now();
+  of_light.surfaces = reference.surfaces(report("reference, surfaces"));
+  of_light.surfaces_ms = milliseconds_since(start);
+  if (cache_) cache_->save_surfaces(light, {*of_light.surfaces, of_light.surfaces_ms});
+  return *of_light.surfaces;
+}
+
+const reference::AirlightImage& SharedReference::converged(std::size_t light, int samples) {
+  OfLight& of_light = lights_[light];
+  const bool is_kept = load_converged(light, samples);
+  if (!is_kept) {
+    const auto& made =
+        of_light.converged.emplace(samples, rays(light).converged(samples, report("reference, airlight")));
+    if (cache_) cache_->save_converged(light, samples, made.first->second);
+  }
+  const reference::AirlightImage& image = of_light.converged.at(samples);
+  work_.airlight_rays += image.rays;
+  work_.airlight_ms += image.ms;
+  if (is_kept) work_.kept_airlight_ms += image.ms;
+  return image;
+}
+
+reference::AirlightImage SharedReference::march(std::size_t light, int steps, reference::RayMode mode) {
+  reference::AirlightImage image = rays(light).march(steps, mode, report("reference-march"));
+  work_.airlight_rays += image.rays;
+  work_.airlight_ms += image.ms;
+  return image;
+}
+
+}  // namespace airlight::quality

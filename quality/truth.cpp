@@ -1,0 +1,41 @@
+#include "quality/truth.h"
+
+namespace airlight::quality {
+namespace {
+
+double mean(const std::vector<glm::vec3>& image) {
+  double sum = 0.0;
+  for (const glm::vec3& value : image) {
+    const glm::dvec3 wide(value);
+    sum += wide.r + wide.g + wide.b;
+  }
+  return sum / static_cast<double>(3 * image.size());
+}
+
+}  // namespace
+
+Truth trace_truth(SharedReference& reference, const scene::View& view, int samples) {
+  Truth truth;
+  TruthFigures& figures = truth.figures;
+  figures.samples = samples;
+  double error = 0.0;  // rmse, in the unit of the image
+  for (std::size_t light = 0; light < view.lights.size(); ++light) {
+    const reference::AirlightImage& airlight = reference.converged(light, samples);
+    const reference::SurfaceImage& surfaces = reference.surfaces(light);
+    if (light == 0) {
+      truth.airlight = airlight.radiance;
+      truth.distance = surfaces.distance;
+    } else {
+      for (std::size_t i = 0; i < truth.airlight.size(); ++i) truth.airlight[i] += airlight.radiance[i];
+    }
+    truth.visibility.push_back(surfaces.visibility);
+    error += airlight.self_error * mean(airlight.radiance);  // a sum's rmse is at most the sum of rmse
+    figures.ms += airlight.ms;
+    figures.rays += airlight.rays;
+  }
+  figures.mean_airlight = mean(truth.airlight);
+  figures.self_error = figures.mean_airlight > 0.0 ? error / figures.mean_airlight : 0.0;
+  return truth;
+}
+
+}  // namespace airlight::quality

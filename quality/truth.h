@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "quality/traced.h"
+#include "scene/scene.h"
+
+namespace airlight::quality {
+
+/// What there is to say of a truth.
+struct TruthFigures {
+  int samples = 0;
+  double self_error = 0.0;  ///< rrmse against half as many samples; of several lights, at most this
+  double ms = 0.0;          ///< of tracing and integrating
+  std::uint64_t rays = 0;
+  double mean_airlight = 0.0;  ///< over pixels and channels [W/(m² sr)]
+};
+
+/// What a view's images are judged by: the converged reference, all lights together.
+struct Truth {
+  std::vector<glm::vec3> airlight;             ///< RGB [W/(m² sr)]
+  std::vector<float> distance;                 ///< along the view ray [m]; 0 where nothing is hit
+  std::vector<std::vector<float>> visibility;  ///< of surfaces, for each light: 0 or 1
+  TruthFigures figures;
+};
+
+Truth trace_truth(SharedReference& reference, const scene::View& view, int samples);
+
+}  // namespace airlight::quality

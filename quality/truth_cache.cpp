@@ -1,0 +1,173 @@
+#include "quality/truth_cache.h"
+
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "scene/error.h"
+#include "scene/light_texture.h"
+
+namespace airlight::quality {
+namespace {
+
+using scene::Error;
+using scene::ExitCode;
+
+/// FNV-1a of 128 bits, as 32 hexadecimal digits. Fowler, Noll, Vo, "The FNV Non-Cryptographic Hash
+/// Algorithm".
+class Hash {
+ public:
+  void add(std::span<const std::byte> bytes) {
+    constexpr auto k_prime = (static_cast<Word>(1) << 88) + 0x13b;
+    for (const std::byte byte : bytes) word_ = (word_ ^ static_cast<Word>(byte)) * k_prime;
+  }
+
+  template <typename T>
+  void add(const std::vector<T>& values) {
+    add(std::as_bytes(std::span(values)));
+  }
+
+  std::string text() const {
+    return fmt::format("{:016x}{:016x}", static_cast<std::uint64_t>(word_ >> 64),
+                       static_cast<std::uint64_t>(word_));
+  }
+
+ private:
+  using Word = unsigned __int128;
+  Word word_ = static_cast<Word>(0x6c62272e07bb0142) << 64 | 0x62b821756295c58d;
+};
+
+/// Numbers with every bit they have.
+template <typename Vector>
+std::string exact(const Vector& v) {
+  return fmt::format("{:a} {:a} {:a}", v.x, v.y, v.z);
+}
+
+double number(const Image& image, const char* name) {
+  const auto found = image.metadata.find(name);
+  double value = 0.0;
+  if (found != image.metadata.end())
+    std::from_chars(found->second.data(), found->second.data() + found->second.size(), value);
+  return value;
+}
+
+constexpr const char* k_key = "airlight.truth";
+constexpr std::array<const char*, 3> k_channels = {"R", "G", "B"};
+
+}  // namespace
+
+TruthCache::TruthCache(std::filesystem::path folder, const scene::Geometry& geometry, const scene::View& view)
+    : folder_(std::move(folder)), view_(view) {
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  if (error) {
+    throw Error(ExitCode::bad_file, folder_.string(),
+                fmt::format("the folder cannot be made: {}", error.message()),
+                "choose another one with --cache");
+  }
+  Hash hash;
+  hash.add(geometry.positions);
+  hash.add(geometry.triangles);
+  geometry_hash_ = hash.text();
+}
+
+std::string TruthCache::key(std::size_t light_index, const std::string& what) const {
+  const scene::Camera& camera = view_.camera;
+  const scene::Light& light = view_.lights[light_index];
+  const scene::Medium& medium = view_.medium;
+  std::string key = fmt::format(
+      "{} of version {}\n"
+      "geometry {}\n"
+      "camera {} {} {} {:a} {}x{}\n"
+      "light {} {} {}\n"
+      "medium {} {} {} {:a} {:a}\n",
+      what, reference::k_truth_version, geometry_hash_, exact(camera.eye), exact(camera.target),
+      exact(camera.up), camera.vertical_fov_degrees, view_.size.x, view_.size.y, static_cast<int>(light.kind),
+      exact(light.position), exact(light.intensity), exact(medium.sigma_s), exact(medium.sigma_a),
+      static_cast<int>(medium.phase), medium.g, medium.rayleigh_weight);
+  if (light.texture) {
+    Hash hash;
+    hash.add(light.texture->texels());
+    key += fmt::format("texture {} {}x{}\n", hash.text(), light.texture->size().x, light.texture->size().y);
+  }
+  return key;
+}
+
+std::optional<Image> TruthCache::load(const std::string& key) const {
+  Hash hash;
+  hash.add(std::as_bytes(std::span(key)));
+  const std::filesystem::path file = folder_ / (hash.text() + ".exr");
+  if (std::error_code error; !std::filesystem::exists(file, error)) return {};
+  Image image = read_exr(file);
+  const auto kept = image.metadata.find(k_key);
+  if (kept == image.metadata.end() || kept->second != key || image.size != view_.size)
+    throw Error(ExitCode::bad_file, file.string(), "it is not the truth that its name says", "remove it");
+  return image;
+}
+
+void TruthCache::save(const std::string& key, Image image) const {
+  Hash hash;
+  hash.add(std::as_bytes(std::span(key)));
+  image.size = view_.size;
+  image.metadata[k_key] = key;
+  // Under another name until it is whole: whoever looks finds all of it or nothing.
+  const std::filesystem::path file = folder_ / (hash.text() + ".exr");
+  const std::filesystem::path part = folder_ / fmt::format("{}.{}.part", hash.text(), getpid());
+  write_exr(part, image);
+  std::error_code error;
+  std::filesystem::rename(part, file, error);
+  if (error) throw Error(ExitCode::bad_file, file.string(), "it cannot be written");
+}
+
+std::optional<TruthCache::Surfaces> TruthCache::load_surfaces(std::size_t light) const {
+  std::optional<Image> image = load(key(light, "surfaces"));
+  if (!image) return {};
+  return Surfaces{{.distance = std::move(image->channels["distance.Y"]),
+                   .visibility = std::move(image->channels["surface.Y"])},
+                  number(*image, "airlight.ms")};
+}
+
+void TruthCache::save_surfaces(std::size_t light, const Surfaces& surfaces) const {
+  Image image;
+  image.channels["distance.Y"] = surfaces.image.distance;
+  image.channels["surface.Y"] = surfaces.image.visibility;
+  image.metadata["airlight.ms"] = fmt::format("{}", surfaces.ms);
+  save(key(light, "surfaces"), std::move(image));
+}
+
+std::optional<reference::AirlightImage> TruthCache::load_converged(std::size_t light, int samples) const {
+  const std::optional<Image> image = load(key(light, fmt::format("airlight by {} samples", samples)));
+  if (!image) return {};
+  reference::AirlightImage airlight;
+  airlight.radiance.resize(image->channels.at("R").size());
+  for (int channel = 0; channel < 3; ++channel) {
+    const std::vector<float>& values = image->channels.at(k_channels[static_cast<std::size_t>(channel)]);
+    for (std::size_t i = 0; i < values.size(); ++i) airlight.radiance[i][channel] = values[i];
+  }
+  airlight.rays = static_cast<std::uint64_t>(number(*image, "airlight.rays"));
+  airlight.ms = number(*image, "airlight.ms");
+  airlight.self_error = number(*image, "airlight.self-error");
+  return airlight;
+}
+
+void TruthCache::save_converged(std::size_t light, int samples,
+                                const reference::AirlightImage& airlight) const {
+  Image image;
+  for (int channel = 0; channel < 3; ++channel) {
+    std::vector<float>& values = image.channels[k_channels[static_cast<std::size_t>(channel)]];
+    for (const glm::vec3& radiance : airlight.radiance) values.push_back(radiance[channel]);
+  }
+  image.metadata["airlight.rays"] = fmt::format("{}", airlight.rays);
+  image.metadata["airlight.ms"] = fmt::format("{}", airlight.ms);
+  image.metadata["airlight.self-error"] = fmt::format("{}", airlight.self_error);
+  save(key(light, fmt::format("airlight by {} samples", samples)), std::move(image));
+}
+
+}  // namespace airlight::quality

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "quality/image_io.h"
+#include "reference/reference.h"
+#include "scene/scene.h"
+
+namespace airlight::quality {
+
+/// The truth of a view, kept on disk so that nothing is traced twice: one OpenEXR file an image, named by a
+/// hash of everything that it depends on, `reference::k_truth_version` included. Two programs may use one
+/// folder at the same time.
+class TruthCache {
+ public:
+  /// @param folder made where it is missing
+  /// @throws scene::Error (bad_file) where it cannot be made
+  TruthCache(std::filesystem::path folder, const scene::Geometry& geometry, const scene::View& view);
+
+  struct Surfaces {
+    reference::SurfaceImage image;
+    double ms;  ///< time that tracing took
+  };
+
+  // Of one of the view's lights; nothing where the image is not there yet.
+  // @throws scene::Error (bad_file) where a file is damaged or cannot be written
+  std::optional<Surfaces> load_surfaces(std::size_t light) const;
+  void save_surfaces(std::size_t light, const Surfaces& surfaces) const;
+  std::optional<reference::AirlightImage> load_converged(std::size_t light, int samples) const;
+  void save_converged(std::size_t light, int samples, const reference::AirlightImage& image) const;
+
+ private:
+  /// All that an image depends on, in words.
+  std::string key(std::size_t light, const std::string& what) const;
+  std::optional<Image> load(const std::string& key) const;
+  void save(const std::string& key, Image image) const;
+
+  std::filesystem::path folder_;
+  std::string geometry_hash_;
+  scene::View view_;
+};
+
+}  // namespace airlight::quality

@@ -1,0 +1,43 @@
+// Where everything that a shader reads or writes is bound: one name a thing, for C++ and GLSL. OpenGL 4.5 guarantees 16 texture
+// units, 8 storage buffers, 8 image units and 12 uniform blocks a stage: no number lies above that.
+#ifndef AIRLIGHT_BINDINGS_GLSL
+#define AIRLIGHT_BINDINGS_GLSL
+#include "shared.glsl"
+
+// Uniform blocks
+CONST uint k_camera_block = 0u;  // frame/camera.glsl
+CONST uint k_light_block = 1u;   // frame/light.glsl
+CONST uint k_medium_block = 2u;  // frame/medium.glsl
+CONST uint k_space_block = 3u;   // epipolar/space.glsl
+
+// Texture units
+CONST uint k_surface_unit = 0u;         // of a frame: normal and distance a pixel, …
+CONST uint k_triangle_unit = 1u;        // … the triangle seen, …
+CONST uint k_visibility_unit = 2u;      // … what of the light arrives at the surface, …
+CONST uint k_airlight_unit = 3u;        // … and what the medium scatters
+CONST uint k_shadow_map_unit = 4u;
+CONST uint k_light_texture_unit = 5u;
+CONST uint k_scratch_unit = 6u;         // of one step, which reads back what it wrote
+CONST uint k_planes_unit = 7u;          // epipolar/planes.glsl
+CONST uint k_positions_unit = 8u;       // of a scene: vertices, …
+CONST uint k_triangles_unit = 9u;       // … their indices, …
+CONST uint k_albedos_unit = 10u;        // … materials, …
+CONST uint k_materials_unit = 11u;      // … and which a triangle has
+CONST uint k_grid_unit = 12u;           // epipolar/grid.glsl
+CONST uint k_table_unit = 13u;          // media/vsv_table.glsl
+CONST uint k_first_shadowed_unit = 14u; // epipolar/grid.h
+
+// Storage buffers
+CONST uint k_phi_range_storage = 0u;  // epipolar/phi_range.glsl
+CONST uint k_grid_storage = 1u;
+CONST uint k_first_shadowed_storage = 2u;
+CONST uint k_planes_storage = 3u;
+CONST uint k_queue_storage = 4u;      // epipolar/triangle_queue.glsl
+CONST uint k_scratch_storage = 5u;
+CONST uint k_table_storage = 6u;
+
+// Image units
+CONST uint k_output_image = 0u;  // what a pass over pixels writes
+CONST uint k_sum_image = 1u;     // and what it adds to
+
+#endif

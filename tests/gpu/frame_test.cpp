@@ -1,0 +1,227 @@
+#include "frame/frame.h"
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "frame/none.h"
+#include "media/vsv.h"
+#include "scene/light_texture.h"
+#include "support/gpu_context.h"
+#include "support/scenes.h"
+#include "surface_shadows/shadow_map_lookup.h"
+
+namespace airlight::frame {
+namespace {
+
+using surface_shadows::ShadowMapLookup;
+using tests::builtin;
+using tests::gpu_context;
+using tests::view_of;
+
+media::Vsv small_vsv(media::VsvIntegral integral = media::VsvIntegral::table) {
+  return {gpu_context(), {.integral = integral, .volume = {.resolution = {64, 128, 128}}}};
+}
+
+FrameImages render(Frame& frame, const scene::View& view, SurfaceShadow& shadow, Airlight& airlight) {
+  gpu::StageTimer off(nullptr);
+  frame.render(view, shadow, airlight, off);
+  return frame.read();
+}
+
+void expect_near(const std::vector<glm::vec3>& image, const std::vector<glm::vec3>& expected,
+                 double relative) {
+  ASSERT_EQ(image.size(), expected.size());
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    for (int channel = 0; channel < 3; ++channel) {
+      const auto value = static_cast<double>(expected[i][channel]);
+      ASSERT_NEAR(static_cast<double>(image[i][channel]), value, relative * value) << "pixel " << i;
+    }
+  }
+}
+
+TEST(Frame, AddsUpItsLights) {
+  const scene::Scene& scene = builtin("cornell");
+  scene::View view = view_of(scene, {24, 20});
+  view.lights.push_back(scene::point_light("", {0.5, 0.4, 0.3}, {0.2f, 0.3f, 0.9f}));
+  view.lights.push_back(scene::point_light("", {-0.5, 1.2, 1.5}, {0.5f, 0.1f, 0.1f}));
+  Frame frame(gpu_context(), scene.geometry, 256);
+  ShadowMapLookup shadow;
+  media::Vsv vsv = small_vsv();
+  const FrameImages all = render(frame, view, shadow, vsv);
+  ASSERT_EQ(all.visibility.size(), 3u);
+
+  std::vector<glm::vec3> radiance(all.radiance.size(), glm::vec3(0.0f)), airlight = radiance;
+  for (std::size_t light = 0; light < view.lights.size(); ++light) {
+    scene::View alone = view;
+    alone.lights = {view.lights[light]};
+    const FrameImages one = render(frame, alone, shadow, vsv);
+    for (std::size_t i = 0; i < radiance.size(); ++i) {
+      radiance[i] += one.radiance[i];
+      airlight[i] += one.airlight[i];
+    }
+    EXPECT_EQ(all.visibility[light], one.visibility[0]) << light;
+  }
+  expect_near(all.radiance, radiance, 1e-6);
+  expect_near(all.airlight, airlight, 1e-6);
+}
+
+/// Lets an amount through that is the same everywhere.
+class Filter : public SurfaceShadow {
+ public:
+  Filter(gpu::Format format, glm::vec3 part) : format_(format), part_(part) {}
+  gpu::Format visibility_format() const override { return format_; }
+  void query(const FrameInputs&, const gpu::Texture& visibility) override {
+    const auto pixels = static_cast<std::size_t>(visibility.size().x * visibility.size().y);
+    if (format_ == gpu::Format::r32f) {
+      visibility.write(std::vector<float>(pixels, part_.r).data());
+    } else {
+      visibility.write(std::vector<glm::vec4>(pixels, glm::vec4(part_, 0.0f)).data());
+    }
+  }
+
+ private:
+  gpu::Format format_;
+  glm::vec3 part_;
+};
+
+TEST(Frame, ColoursTheLightThatOccludersLetThrough) {
+  const scene::Scene& scene = builtin("cornell");
+  const scene::View view = view_of(scene, {16, 12});
+  Frame frame(gpu_context(), scene.geometry, 64);
+  NoShadow no_shadow;
+  NoAirlight no_airlight;
+  const std::vector<glm::vec3> lit = render(frame, view, no_shadow, no_airlight).radiance;
+  const auto through = [&](gpu::Format format, glm::vec3 part) {
+    Filter filter(format, part);
+    return render(frame, view, filter, no_airlight);
+  };
+  std::vector<glm::vec3> expected;
+  for (const glm::vec3& radiance : lit) expected.push_back(radiance * glm::vec3(0.5f, 0.25f, 0.0f));
+  const FrameImages coloured = through(gpu::Format::rgba32f, {0.5f, 0.25f, 0.0f});
+  expect_near(coloured.radiance, expected, 1e-6);
+  EXPECT_FLOAT_EQ(coloured.visibility[0][100], 0.25f) << "the mean";
+  for (std::size_t i = 0; i < lit.size(); ++i) expected[i] = 0.5f * lit[i];
+  expect_near(through(gpu::Format::r32f, glm::vec3(0.5f)).radiance, expected, 1e-6);
+}
+
+TEST(Frame, RemembersNothingOfTheFramesBefore) {
+  const scene::Scene& scene = builtin("cornell");
+  Frame kept(gpu_context(), scene.geometry, 256);
+  ShadowMapLookup shadow;
+  media::Vsv kept_vsv = small_vsv(media::VsvIntegral::riemann);
+  const auto texture = std::make_shared<scene::LightTexture>(
+      "t", glm::ivec2(2, 1), std::vector<glm::vec3>{{1.0f, 0.2f, 0.1f}, {0.0f, 1.0f, 0.5f}});
+  const std::vector<std::pair<const char*, std::function<void(scene::View&)>>> changes = {
+      {"nothing", [](scene::View&) {}},
+      {"camera", [](scene::View& view) { view.camera.eye += glm::dvec3(0.3, -0.1, -0.5); }},
+      {"light",
+       [](scene::View& view) {
+         view.lights[0].position = {0.4, 0.9, 0.7};
+       }},
+      {"second light",
+       [](scene::View& view) {
+         view.lights.push_back(scene::point_light("", {-0.6, 0.3, 0.9}, {0.1f, 0.2f, 0.9f}));
+       }},
+      {"texture", [&](scene::View& view) { view.lights[1].texture = texture; }},
+      {"size",
+       [](scene::View& view) {
+         view.size = {20, 33};
+       }},
+      {"phase function",
+       [](scene::View& view) {
+         view.medium.phase = scene::PhaseFunction::henyey_greenstein;
+         view.medium.g = 0.6f;
+       }},
+      {"medium",
+       [](scene::View& view) {
+         view.medium.sigma_a = {0.0f, 0.1f, 0.3f};
+       }},
+      {"lights", [](scene::View& view) { view.lights.pop_back(); }},
+      {"size again",
+       [](scene::View& view) {
+         view.size = {24, 24};
+       }},
+  };
+  scene::View view = view_of(scene, {24, 24});
+  for (const auto& [what, change] : changes) {
+    change(view);
+    Frame fresh(gpu_context(), scene.geometry, 256);
+    media::Vsv vsv = small_vsv(media::VsvIntegral::riemann);
+    const FrameImages expected = render(fresh, view, shadow, vsv);
+    const FrameImages images = render(kept, view, shadow, kept_vsv);
+    EXPECT_EQ(images.radiance, expected.radiance) << what;
+    EXPECT_EQ(images.airlight, expected.airlight) << what;
+    EXPECT_EQ(images.visibility, expected.visibility) << what;
+    EXPECT_EQ(images.distance, expected.distance) << what;
+  }
+}
+
+TEST(Frame, ShadesALambertSurfaceByItsClosedForm) {
+  scene::Geometry floor;
+  tests::add_quad(floor, {-50, 0, -50}, {0, 0, 100}, {100, 0, 0});
+  floor.materials[0].albedo = {0.8f, 0.5f, 0.2f};
+  scene::View view;
+  view.camera.eye = {0.5, 2, 3};
+  view.camera.target = {0, 0, 0};
+  view.lights = {scene::point_light("", {1, 1.5, -1}, {3, 2, 1})};
+  view.medium.sigma_s = {0.1f, 0.2f, 0.3f};
+  view.medium.sigma_a = {0.05f, 0.0f, 0.1f};
+  view.size = {16, 16};
+  Frame frame(gpu_context(), floor, 64);
+  NoShadow no_shadow;
+  NoAirlight no_airlight;
+  const FrameImages images = render(frame, view, no_shadow, no_airlight);
+
+  const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
+  const glm::dvec3 light = view.lights[0].position;
+  int seen = 0;
+  for (int y = 0; y < 16; ++y) {
+    for (int x = 0; x < 16; ++x) {
+      const glm::dvec3 ray =
+          glm::normalize(camera.forward + ((x + 0.5) / 8 - 1) * camera.half_width * camera.right +
+                         (1 - (y + 0.5) / 8) * camera.half_height * camera.up);
+      const double d = -camera.eye.y / ray.y;
+      if (d <= 0 || d > 40) continue;
+      ++seen;
+      const glm::dvec3 to_light = light - (camera.eye + d * ray);
+      const double r = glm::length(to_light);
+      for (int channel = 0; channel < 3; ++channel) {
+        const double sigma_t =
+            static_cast<double>(view.medium.sigma_s[channel] + view.medium.sigma_a[channel]);
+        const double expected = static_cast<double>(floor.materials[0].albedo[channel]) / std::numbers::pi *
+                                static_cast<double>(view.lights[0].intensity[channel]) * (to_light.y / r) /
+                                (r * r) * std::exp(-sigma_t * (r + d));
+        // Single precision, the exponential's error growing with its exponent.
+        EXPECT_NEAR(static_cast<double>(images.radiance[static_cast<std::size_t>(16 * y + x)][channel]),
+                    expected, 1e-5 * expected);
+      }
+    }
+  }
+  EXPECT_GT(seen, 100);
+}
+
+TEST(Frame, DrawsAShadowMapOnlyForWhoAsks) {
+  const scene::Scene& scene = builtin("cornell");
+  const scene::View view = view_of(scene, {8, 8});
+  Frame frame(gpu_context(), scene.geometry, 64);
+  NoShadow no_shadow;
+  NoAirlight no_airlight;
+  ShadowMapLookup lookup;
+  const auto has_shadow_map = [&](SurfaceShadow& shadow) {
+    gpu::StageTimer timer(&gpu_context());
+    frame.render(view, shadow, no_airlight, timer);
+    EXPECT_EQ(timer.milliseconds().contains("shadow_map"), frame.bytes().contains("shadow_map"));
+    return frame.bytes().contains("shadow_map");
+  };
+  EXPECT_FALSE(has_shadow_map(no_shadow));
+  EXPECT_TRUE(has_shadow_map(lookup));
+  EXPECT_EQ(frame.bytes().at("shadow_map"), 6 * 64 * 64 * 4);
+  EXPECT_FALSE(has_shadow_map(no_shadow)) << "it is there, but this frame does not use it";
+}
+
+}  // namespace
+}  // namespace airlight::frame

@@ -1,0 +1,151 @@
+#include "quality/truth_cache.h"
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "quality/truth.h"
+#include "scene/error.h"
+#include "scene/light_texture.h"
+
+namespace airlight::quality {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Cache : public testing::Test {
+ protected:
+  Cache() : folder_(fs::path(testing::TempDir()) / "airlight_truth_cache") {
+    fs::remove_all(folder_);
+    geometry_.positions = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+    geometry_.triangles = {{0, 1, 2}};
+    geometry_.material_of_triangle = {0};
+    geometry_.materials = {{}};
+    view_.camera = {"", {0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 45};
+    view_.lights[0].position = {1, 0.2, -3};
+    view_.lights.push_back(scene::point_light("", {0, 2, 2}, {1, 2, 3}));
+    view_.size = {9, 7};
+  }
+
+  Truth trace(int samples = 16) {
+    SharedReference shared(geometry_, view_, {}, folder_);
+    return trace_truth(shared, view_, samples);
+  }
+  std::ptrdiff_t files() const {
+    return std::distance(fs::directory_iterator(folder_), fs::directory_iterator());
+  }
+
+  fs::path folder_;
+  scene::Geometry geometry_;
+  scene::View view_;
+};
+
+TEST_F(Cache, GivesBackEveryBitWithoutTracing) {
+  const Truth traced = trace();
+  EXPECT_EQ(files(), 4) << "airlight and surfaces of two lights";
+  SharedReference shared(geometry_, view_, {}, folder_);
+  const Truth kept = trace_truth(shared, view_, 16);
+  EXPECT_EQ(kept.airlight, traced.airlight);
+  EXPECT_EQ(kept.distance, traced.distance);
+  EXPECT_EQ(kept.visibility, traced.visibility);
+  EXPECT_EQ(kept.figures.ms, traced.figures.ms) << "what it cost when it was traced";
+  EXPECT_EQ(kept.figures.rays, traced.figures.rays);
+  EXPECT_EQ(kept.figures.self_error, traced.figures.self_error);
+  EXPECT_EQ(shared.take_work().kept_airlight_ms, kept.figures.ms);
+  EXPECT_EQ(files(), 4);
+}
+
+TEST_F(Cache, TellsApartWhateverATruthDependsOn) {
+  trace();
+  std::ptrdiff_t before = files();
+  const auto expect_new = [&](const char* what, const std::function<void()>& change) {
+    const scene::Geometry geometry = geometry_;
+    const scene::View view = view_;
+    change();
+    trace();
+    EXPECT_GT(files(), before) << what;
+    before = files();
+    geometry_ = geometry;
+    view_ = view;
+  };
+  expect_new("position", [&] { geometry_.positions[0].x = -1.0000001f; });
+  expect_new("triangle", [&] { geometry_.triangles[0] = {1, 2, 0}; });
+  expect_new("eye", [&] { view_.camera.eye.z += 1e-15; });
+  expect_new("target", [&] { view_.camera.target.x = 1e-3; });
+  expect_new("up", [&] { view_.camera.up.x = 0.5; });
+  expect_new("field of view", [&] { view_.camera.vertical_fov_degrees = 46; });
+  expect_new("size", [&] { view_.size.x = 8; });
+  expect_new("light", [&] { view_.lights[1].position.x = 0.1; });
+  expect_new("intensity", [&] { view_.lights[0].intensity.y = 2; });
+  expect_new("scattering", [&] { view_.medium.sigma_s.z = 0.2f; });
+  expect_new("absorption", [&] { view_.medium.sigma_a.z = 0.2f; });
+  expect_new("phase function", [&] { view_.medium.phase = scene::PhaseFunction::rayleigh; });
+  expect_new("g", [&] { view_.medium.g = 0.1f; });
+  expect_new("Rayleigh's part", [&] { view_.medium.rayleigh_weight = 0.1f; });
+  expect_new("texture", [&] {
+    view_.lights[0].texture =
+        std::make_shared<scene::LightTexture>("t", glm::ivec2(1, 1), std::vector<glm::vec3>{glm::vec3(0.5f)});
+  });
+  trace(17);
+  EXPECT_EQ(files(), before + 2) << "samples: of two lights, the surfaces as before";
+}
+
+TEST_F(Cache, ADamagedFileIsAnErrorThatNamesIt) {
+  trace();
+  fs::path file;
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    file = entry.path();
+    fs::resize_file(file, fs::file_size(file) / 2);
+  }
+  try {
+    trace();
+    FAIL() << "an error was expected";
+  } catch (const scene::Error& error) {
+    EXPECT_EQ(error.exit_code, scene::ExitCode::bad_file);
+    EXPECT_THAT(error.what(), testing::HasSubstr(folder_.string()));
+  }
+}
+
+TEST_F(Cache, AFileUnderAnothersNameIsRefused) {
+  trace();
+  std::vector<fs::path> all;
+  for (const auto& entry : fs::directory_iterator(folder_)) all.push_back(entry.path());
+  for (const fs::path& file : all)
+    if (file != all[0]) fs::copy_file(all[0], file, fs::copy_options::overwrite_existing);
+  EXPECT_THROW(trace(), scene::Error);
+}
+
+TEST_F(Cache, AFolderThatCannotBeMadeIsNamed) {
+  folder_ = "/dev/null/cache";
+  EXPECT_THROW(trace(), scene::Error);
+}
+
+TEST(Truth, OfTwoLightsIsTheSumOfTheirs) {
+  scene::Geometry geometry;
+  geometry.positions = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+  geometry.triangles = {{0, 1, 2}};
+  scene::View view;
+  view.camera = {"", {0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 45};
+  view.lights = {scene::point_light("", {1, 0, -3}, glm::vec3(1.0f)),
+                 scene::point_light("", {0, 2, 2}, {1, 2, 3})};
+  view.size = {9, 7};
+  SharedReference both(geometry, view, {});
+  const Truth sum = trace_truth(both, view, 64);
+  std::vector<glm::vec3> expected(9 * 7, glm::vec3(0.0f));
+  for (const scene::Light& light : view.lights) {
+    scene::View alone = view;
+    alone.lights = {light};
+    SharedReference one(geometry, alone, {});
+    const Truth truth = trace_truth(one, alone, 64);
+    for (std::size_t i = 0; i < expected.size(); ++i) expected[i] += truth.airlight[i];
+  }
+  EXPECT_EQ(sum.airlight, expected);
+  EXPECT_EQ(sum.visibility.size(), 2u);
+}
+
+}  // namespace
+}  // namespace airlight::quality
