@@ -40,17 +40,18 @@ std::vector<std::uint32_t> deal_apart(const std::vector<scene::Box>& boxes) {
   return group;
 }
 
-PopulateScreenSpace::PopulateScreenSpace(const gpu::Context& context, const Grid& grid)
-    : crossings_(grid.resolution(), k_populate_screen_space_comp, k_populate_screen_space_queue_comp),
-      resolve_(gpu::Program::compute(k_screen_space_resolve_comp, resolution_constants(grid.resolution()))) {
+PopulateScreenSpace::PopulateScreenSpace(const gpu::Limits& limits, const Grid& grid)
+    : limits_(limits),
+      crossings_(grid.resolution(), k_populate_screen_space_comp, k_populate_screen_space_queue_comp),
+      resolve_(gpu::Pipeline::compute(k_screen_space_resolve_comp, resolution_constants(grid.resolution()))) {
   const Resolution& n = grid.resolution();
   int planes = 0;
   for (const Window& window : grid.windows()) planes = std::max(planes, window.planes);
   flips_ = gpu::Buffer(std::int64_t{n.alpha} * planes * n.phi / 8);
-  flip_texels_ = {context, flips_, gpu::Format::rgba32ui, "the crossings of the screen-space voxelization"};
+  flip_texels_ = {limits, flips_, gpu::Format::rgba32ui, "the crossings of the screen-space voxelization"};
 }
 
-void PopulateScreenSpace::load(const gpu::Context& context, const scene::Geometry& geometry) {
+void PopulateScreenSpace::load(const scene::Geometry& geometry) {
   const scene::Components components = scene::find_components(geometry);
   std::vector<scene::Box> boxes(components.count);
   for (std::size_t t = 0; t < geometry.triangles.size(); ++t) {
@@ -76,24 +77,25 @@ void PopulateScreenSpace::load(const gpu::Context& context, const scene::Geometr
     triangles.push_back(geometry.triangles[triangle]);
   }
   triangles_ = gpu::Buffer::from(std::span<const glm::uvec3>(triangles));
-  triangle_texels_ = {context, triangles_, gpu::Format::rgb32ui, "the model's triangles"};
+  triangle_texels_ = {limits_, triangles_, gpu::Format::rgb32ui, "the model's triangles"};
   geometry_ = &geometry;
 }
 
-void PopulateScreenSpace::run(const gpu::Context& context, const Grid& grid,
-                              const frame::SceneBuffers& scene) {
-  if (geometry_ != &scene.geometry()) load(context, scene.geometry());
+void PopulateScreenSpace::run(const Grid& grid, const frame::SceneBuffers& scene) {
+  if (geometry_ != &scene.geometry()) load(scene.geometry());
   grid.bits().clear();
   scene.bind_samplers();
   triangle_texels_.bind_sampler(9);
   flips_.bind_storage(9);
   flip_texels_.bind_sampler(15);
   for (const Window& window : grid.windows()) {
-    grid.begin_pass(window);
+    grid.bind_window(window);
+    crossings_.set_window(window);
+    set_window(resolve_, window);
     for (const Pass& pass : passes_) {
       flips_.clear();
       crossings_.run(pass.first, pass.count);
-      resolve_.dispatch({grid.resolution().alpha, window.planes, 1}, {64, 1, 1});
+      resolve_.dispatch({grid.resolution().alpha, window.planes, 1});
     }
   }
 }

@@ -5,7 +5,7 @@
 #include "epipolar/grid.h"
 #include "epipolar/triangle_queue.h"
 #include "frame/scene_buffers.h"
-#include "gpu/program.h"
+#include "gpu/pipeline.h"
 #include "gpu/texture.h"
 
 namespace airlight::epipolar {
@@ -21,10 +21,10 @@ namespace airlight::epipolar {
 /// a crossing, and a second one the bits before it.
 class PopulateScreenSpace {
  public:
-  PopulateScreenSpace(const gpu::Context& context, const Grid& grid);
+  PopulateScreenSpace(const gpu::Limits& limits, const Grid& grid);
 
   /// Clears the grid and sets the bits inside solids. The view's block and the grid are bound.
-  void run(const gpu::Context& context, const Grid& grid, const frame::SceneBuffers& scene);
+  void run(const Grid& grid, const frame::SceneBuffers& scene);
 
   std::int64_t bytes() const { return flips_.bytes() + triangles_.bytes(); }
 
@@ -32,10 +32,11 @@ class PopulateScreenSpace {
   struct Pass {
     std::uint32_t first, count;  ///< triangles
   };
-  void load(const gpu::Context& context, const scene::Geometry& geometry);
+  void load(const scene::Geometry& geometry);
 
+  gpu::Limits limits_;
   TriangleQueue crossings_;
-  gpu::Program resolve_;
+  gpu::Pipeline resolve_;
   gpu::Buffer flips_;
   gpu::TexelView flip_texels_;
   const scene::Geometry* geometry_ = nullptr;  ///< whose triangles these are

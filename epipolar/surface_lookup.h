@@ -2,7 +2,7 @@
 
 #include "epipolar/volume.h"
 #include "frame/methods.h"
-#include "gpu/program.h"
+#include "gpu/pipeline.h"
 
 namespace airlight::epipolar {
 
@@ -25,7 +25,7 @@ class SurfaceLookup : public frame::SurfaceShadow {
 
  private:
   ShadowVolume volume_;
-  gpu::Program program_;
+  gpu::Pipeline program_;
 };
 
 }  // namespace airlight::epipolar

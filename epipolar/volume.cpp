@@ -25,12 +25,12 @@ void validate(const VolumeSettings& settings) {
   }
 }
 
-ShadowVolume::ShadowVolume(const gpu::Context& context, const VolumeSettings& settings)
+ShadowVolume::ShadowVolume(const gpu::Limits& limits, const VolumeSettings& settings)
     : settings_(settings),
-      grid_(context, settings.resolution),
-      planes_(gpu::Program::compute(k_planes_comp, resolution_constants(settings.resolution))),
-      phi_range_(gpu::Program::compute(k_phi_range_comp)),
-      scatter_(gpu::Program::compute(k_scatter_comp, resolution_constants(settings.resolution))) {
+      grid_(limits, settings.resolution),
+      planes_(gpu::Pipeline::compute(k_planes_comp, resolution_constants(settings.resolution))),
+      phi_range_(gpu::Pipeline::compute(k_phi_range_comp)),
+      scatter_(gpu::Pipeline::compute(k_scatter_comp, resolution_constants(settings.resolution))) {
   validate(settings);
   switch (settings.populate) {
     case Populate::shadow_map:
@@ -40,7 +40,7 @@ ShadowVolume::ShadowVolume(const gpu::Context& context, const VolumeSettings& se
       populate_conservative_.emplace(settings.resolution);
       break;
     case Populate::screen_space:
-      populate_screen_space_.emplace(context, grid_);
+      populate_screen_space_.emplace(limits, grid_);
       break;
   }
   switch (scan_of(settings)) {
@@ -51,7 +51,7 @@ ShadowVolume::ShadowVolume(const gpu::Context& context, const VolumeSettings& se
       or_scan_.emplace(settings.resolution);
       break;
     case Scan::multi_pass:
-      mip_scan_.emplace(context, grid_);
+      mip_scan_.emplace(limits, grid_);
       break;
   }
 }
@@ -69,26 +69,26 @@ shaders::EpipolarBlock ShadowVolume::find_ranges(const frame::FrameInputs& input
     grid_.phi_range().clear();
     grid_.bind();
     grid_.planes().bind_storage(9);
-    planes_.dispatch({settings_.resolution.theta, 1, 1}, {64, 1, 1});
+    planes_.dispatch({settings_.resolution.theta, 1, 1});
     if (settings_.ranges == Ranges::full) {
       const auto order_of_pi = std::bit_cast<std::uint32_t>(2.0f);
       grid_.phi_range().write(&order_of_pi, sizeof order_of_pi);
     } else {
       inputs.surfaces.bind_sampler(0);
       const glm::uvec2 size = inputs.view.size;
-      phi_range_.dispatch({size.x, (size.y + 31) / 32, 1}, {64, 1, 1});
+      phi_range_.dispatch({size.x, (size.y + 31) / 32, 1});
     }
   });
   return block;
 }
 
 void ShadowVolume::fill_unscanned(const frame::FrameInputs& inputs, bool with_bits) {
-  if (populate_screen_space_) populate_screen_space_->run(inputs.context, grid_, inputs.scene);
+  if (populate_screen_space_) populate_screen_space_->run(grid_, inputs.scene);
   if (populate_shadow_map_) populate_shadow_map_->run(grid_, *inputs.shadow_map);
   if (populate_conservative_) populate_conservative_->run(grid_, inputs.scene);
   if (with_bits && !populate_screen_space_) {
     grid_.bits().clear();
-    dispatch_planes(scatter_, grid_, settings_.resolution.phi / 32, {16, 4});
+    dispatch_planes(scatter_, grid_, settings_.resolution.phi / 32);
   }
 }
 

@@ -49,7 +49,8 @@ void validate(const VolumeSettings& settings);
 /// φ_k) says whether it is in shadow. Based on: Wyman, "Voxelized Shadow Volumes", HPG 2011, section 2.2.
 class ShadowVolume {
  public:
-  ShadowVolume(const gpu::Context& context, const VolumeSettings& settings);
+  /// @throws scene::Error (usage) where `validate` does, (driver) as Grid.
+  ShadowVolume(const gpu::Limits& limits, const VolumeSettings& settings);
 
   bool needs_shadow_map() const { return settings_.populate == Populate::shadow_map; }
 
@@ -71,7 +72,7 @@ class ShadowVolume {
 
   VolumeSettings settings_;
   Grid grid_;
-  gpu::Program planes_, phi_range_, scatter_;
+  gpu::Pipeline planes_, phi_range_, scatter_;
   std::optional<PopulateShadowMap> populate_shadow_map_;
   std::optional<PopulateConservative> populate_conservative_;
   std::optional<PopulateScreenSpace> populate_screen_space_;

@@ -71,8 +71,8 @@ std::vector<glm::vec3> read_rgb(const gpu::Texture& texture, const char* name) {
   return rgb;
 }
 
-gpu::Program compositor(bool is_light_textured) {
-  return gpu::Program::compute(k_composite_comp, std::array{gpu::Constant(0, is_light_textured)});
+gpu::Pipeline compositor(bool is_light_textured) {
+  return gpu::Pipeline::compute(k_composite_comp, std::array{gpu::Constant(0, is_light_textured)});
 }
 
 }  // namespace
@@ -111,7 +111,7 @@ void Frame::load_light_texture(const std::shared_ptr<const scene::LightTexture>&
     for (const glm::vec3& texel : texture->texels()) texels.emplace_back(texel, 0.0f);
     light_texture_texels_ = gpu::Texture(gpu::Format::rgba32f, size);
     light_texture_texels_.write(texels.data());
-    light_texture_texels_.sample_bilinearly_around();
+    light_texture_texels_.sample_linearly(gpu::Wrap::repeat);
   } else {
     light_texture_texels_ = {};
   }
@@ -169,7 +169,7 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
     airlight_.bind_sampler(3);
     if (light_texture_) light_texture_texels_.bind_sampler(14);
     radiance_.bind_image(0);
-    composite_.dispatch({view.size, 1}, {8, 8, 1});
+    composite_.dispatch({view.size, 1});
   });
   context_.check();
 }

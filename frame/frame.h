@@ -50,7 +50,7 @@ class Frame {
   int shadow_map_size_;
   std::optional<ShadowMap> shadow_map_;
   gpu::Buffer view_block_;
-  gpu::Program composite_;
+  gpu::Pipeline composite_;
   std::shared_ptr<const scene::LightTexture> light_texture_;  ///< the one on the GPU
   gpu::Texture light_texture_texels_;
   std::optional<GBuffer> gbuffer_;

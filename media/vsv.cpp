@@ -35,7 +35,7 @@ std::uint32_t direct_cells(const shaders::EpipolarBlock& space, const epipolar::
 
 Vsv::Vsv(const gpu::Context& context, const epipolar::VolumeSettings& volume, VsvIntegral integral,
          PhiCells phi_cells)
-    : volume_(context, volume),
+    : volume_(context.limits(), volume),
       integral_(integral),
       phi_cells_(phi_cells),
       medium_block_(sizeof(shaders::MediumBlock)) {}
@@ -52,14 +52,14 @@ void Vsv::load(const gpu::Context& context, const Variant& variant) {
                                                   gpu::Constant(5, k_table_rows),
                                                   gpu::Constant(6, variant.direct),
                                                   gpu::Constant(7, integral_ == VsvIntegral::factored)};
-  phi_growth_ = gpu::Program::compute(k_phi_growth_comp, std::array{grid[0], constants[3]});
+  phi_growth_ = gpu::Pipeline::compute(k_phi_growth_comp, std::array{grid[0], constants[3]});
   if (integral_ != VsvIntegral::riemann) {
-    build_table_ = gpu::Program::compute(k_vsv_table_build_comp, std::span(constants).first<6>());
-    integrate_ = gpu::Program::compute(k_vsv_table_comp, constants);
+    build_table_ = gpu::Pipeline::compute(k_vsv_table_build_comp, std::span(constants).first<6>());
+    integrate_ = gpu::Pipeline::compute(k_vsv_table_comp, constants);
     table_ = gpu::Buffer(std::int64_t{k_table_rows} * (resolution.phi + 1) * variant.channels * 8);
-    table_texels_ = {context, table_, gpu::Format::rg32f, "the table integral"};
+    table_texels_ = {context.limits(), table_, gpu::Format::rg32f, "the table integral"};
   } else {
-    integrate_ = gpu::Program::compute(
+    integrate_ = gpu::Pipeline::compute(
         k_vsv_riemann_comp,
         std::array{grid[0], grid[1], grid[2], constants[3], gpu::Constant(4, variant.light_textured)});
   }
@@ -86,13 +86,13 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
         space.alpha_step * static_cast<float>(resolution.alpha) / static_cast<float>(k_table_rows - 1);
     medium_block_.write(&block, sizeof block);
     medium_block_.bind_uniform(2);
-    if (phi_cells_ == PhiCells::growing) phi_growth_.dispatch({1, 1, 1}, {1, 1, 1});
+    if (phi_cells_ == PhiCells::growing) phi_growth_.dispatch({1, 1, 1});
   });
   volume_.fill(inputs);
   if (integral_ != VsvIntegral::riemann) {
     inputs.timer.time("table", [&] {
       table_.bind_storage(6);
-      build_table_.dispatch({k_table_rows, 1, 1}, {8, 1, 1});
+      build_table_.dispatch({k_table_rows, 1, 1});
     });
   }
   inputs.timer.time("integrate", [&] {
@@ -100,7 +100,7 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
     if (integral_ != VsvIntegral::riemann) table_texels_.bind_sampler(13);
     if (inputs.light_texture) inputs.light_texture->bind_sampler(14);
     radiance.bind_image(0);
-    integrate_.dispatch({inputs.view.size, 1}, {8, 8, 1});
+    integrate_.dispatch({inputs.view.size, 1});
   });
 }
 

@@ -60,7 +60,7 @@ class Vsv : public frame::Airlight {
   std::optional<Variant> loaded_;
   gpu::Buffer table_;
   gpu::TexelView table_texels_;
-  gpu::Program phi_growth_, build_table_, integrate_;
+  gpu::Pipeline phi_growth_, build_table_, integrate_;
 };
 
 }  // namespace airlight::media

@@ -6,14 +6,14 @@
 
 namespace airlight::surface_shadows {
 
-ShadowMapLookup::ShadowMapLookup() : program_(gpu::Program::compute(k_shadow_map_lookup_comp)) {}
+ShadowMapLookup::ShadowMapLookup() : program_(gpu::Pipeline::compute(k_shadow_map_lookup_comp)) {}
 
 void ShadowMapLookup::query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) {
   inputs.timer.time("surface_query", [&] {
     inputs.surfaces.bind_sampler(0);
     inputs.shadow_map->depth().bind_sampler(1);
     visibility.bind_image(0);
-    program_.dispatch({inputs.view.size, 1}, {8, 8, 1});
+    program_.dispatch({inputs.view.size, 1});
   });
 }
 
