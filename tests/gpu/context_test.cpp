@@ -1,6 +1,7 @@
 #include "gpu/context.h"
 
 #include <array>
+#include <latch>
 #include <string>
 #include <thread>
 #include <vector>
@@ -187,10 +188,12 @@ TEST(Context, CollectsMessagesFromAnyThread) {
     reinterpret_cast<GLDEBUGPROC>(callback)(GL_DEBUG_SOURCE_API, GL_DEBUG_TYPE_ERROR, 0, severity, -1,
                                             message, errors);
   };
-  constexpr int k_threads = 4, k_messages = 1000;
+  constexpr int k_threads = 4, k_messages = 200000;  // more than a time slice
+  std::latch start(k_threads);
   std::vector<std::jthread> threads;
   for (int thread = 0; thread < k_threads; ++thread) {
     threads.emplace_back([&] {
+      start.arrive_and_wait();
       for (int i = 0; i < k_messages; ++i) {
         send(GL_DEBUG_SEVERITY_HIGH, "bad");
         send(GL_DEBUG_SEVERITY_LOW, "fine");
