@@ -149,8 +149,10 @@ void Context::set_up(DebugOutput debug_output) {
 }
 
 Context::~Context() {
-  glDebugMessageCallback(nullptr, nullptr);  // an adopted context goes on without us
-  if (!context_) return;
+  if (!context_) {
+    glDebugMessageCallback(nullptr, nullptr);  // an adopted context goes on without us
+    return;
+  }
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroyContext(display_, context_);
   eglTerminate(display_);

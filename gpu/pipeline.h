@@ -67,9 +67,8 @@ struct TwoSidedStencil {
 struct FixedState {
   std::optional<Compare> depth_test = {};  ///< none: depth is neither tested nor written
   bool depth_write = true;
-  bool depth_clamp = false;  ///< what lies beyond the near and far planes is kept, at their depth
-  bool upper_left_origin =
-      false;  ///< y of clip space runs downwards; front faces stay front faces
+  bool depth_clamp = false;        ///< what lies beyond the near and far planes is kept, at their depth
+  bool upper_left_origin = false;  ///< y of clip space runs downwards; front faces stay front faces
   bool zero_to_one_depth = false;  ///< depth of clip space runs from 0 to w, not from −w
   Cull cull = Cull::none;          ///< triangles that turn from x to y of clip space are front faces
   std::optional<TwoSidedStencil> stencil = {};
