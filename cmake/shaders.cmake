@@ -29,3 +29,34 @@ function(airlight_shaders target)
   target_sources(${target} PRIVATE ${outputs})
   target_include_directories(${target} PRIVATE ${CMAKE_BINARY_DIR}/embedded/${target})
 endfunction()
+
+# airlight_every_shader(TARGET): embeds all entry points of shaders/, and makes the header "every_shader.h" with the table
+# `k_every_shader` of their names and words.
+function(airlight_every_shader target)
+  file(GLOB_RECURSE entries CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR}/shaders
+       ${CMAKE_SOURCE_DIR}/shaders/*.comp ${CMAKE_SOURCE_DIR}/shaders/*.vert ${CMAKE_SOURCE_DIR}/shaders/*.tesc
+       ${CMAKE_SOURCE_DIR}/shaders/*.tese ${CMAKE_SOURCE_DIR}/shaders/*.geom ${CMAKE_SOURCE_DIR}/shaders/*.frag)
+  airlight_shaders(${target} ${entries})
+  set(includes "")
+  set(rows "")
+  foreach(entry ${entries})
+    string(REPLACE "." "_" stem ${entry})
+    get_filename_component(name ${stem} NAME)
+    string(APPEND includes "#include \"spirv/${stem}.h\"\n")
+    string(APPEND rows "    {\"${entry}\", k_${name}},\n")
+  endforeach()
+  file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/embedded/${target}/every_shader.h @ONLY CONTENT
+"#pragma once
+
+#include <cstdint>
+#include <span>
+
+@includes@
+struct EmbeddedShader {
+  const char* name;
+  std::span<const std::uint32_t> words;
+};
+const EmbeddedShader k_every_shader[] = {
+@rows@};
+")
+endfunction()

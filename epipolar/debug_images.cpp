@@ -41,12 +41,12 @@ frame::DebugImage grid_image(const Grid& grid, const char* name, const char* cap
 }
 
 frame::DebugImage shadowed_samples(const Grid& grid, const frame::FrameInputs& inputs) {
-  const gpu::Program program =
-      gpu::Program::compute(k_shadowed_samples_comp, resolution_constants(grid.resolution()));
+  const gpu::Pipeline program =
+      gpu::Pipeline::compute(k_shadowed_samples_comp, resolution_constants(grid.resolution()));
   const gpu::Texture fractions(gpu::Format::r32f, inputs.view.size);
   inputs.surfaces.bind_sampler(shaders::k_surface_unit);
   fractions.bind_image(shaders::k_output_image);
-  program.dispatch({inputs.view.size, 1}, {8, 8, 1});
+  program.dispatch({inputs.view.size, 1});
   return {"shadowed_samples", "shadowed samples of each view ray before it ends, of all its samples",
           inputs.view.size, fractions.read<float>()};
 }

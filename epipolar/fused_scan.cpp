@@ -7,12 +7,12 @@
 namespace airlight::epipolar {
 namespace {
 
-gpu::Program load(const Resolution& resolution) {
+gpu::Pipeline load(const Resolution& resolution) {
   const auto grid = resolution_constants(resolution);
   const auto digits =
       static_cast<std::uint32_t>(std::bit_width(static_cast<std::uint32_t>(resolution.alpha)));
-  return gpu::Program::compute(k_fused_scan_comp,
-                               std::array{grid[0], grid[1], grid[2], gpu::Constant(3, digits)});
+  return gpu::Pipeline::compute(k_fused_scan_comp,
+                                std::array{grid[0], grid[1], grid[2], gpu::Constant(3, digits)});
 }
 
 }  // namespace
@@ -21,7 +21,7 @@ FusedScan::FusedScan(const Resolution& resolution) : program_(load(resolution)) 
 
 void FusedScan::run(const Grid& grid) const {
   grid.bits().clear();
-  dispatch_planes(program_, grid, grid.resolution().phi / 128, {4, 4});
+  dispatch_planes(program_, grid, grid.resolution().phi / 128);
 }
 
 }  // namespace airlight::epipolar

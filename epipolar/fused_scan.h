@@ -1,7 +1,7 @@
 #pragma once
 
 #include "epipolar/grid.h"
-#include "gpu/program.h"
+#include "gpu/pipeline.h"
 
 namespace airlight::epipolar {
 
@@ -18,7 +18,7 @@ class FusedScan {
   void run(const Grid& grid) const;
 
  private:
-  gpu::Program program_;
+  gpu::Pipeline program_;
 };
 
 }  // namespace airlight::epipolar

@@ -1,6 +1,7 @@
 #include "epipolar/grid.h"
 
 #include <algorithm>
+#include <bit>
 
 #include <fmt/format.h>
 
@@ -20,13 +21,17 @@ std::int64_t plane_bytes(const Resolution& resolution) {
   return std::int64_t{resolution.alpha} * resolution.phi / 8;
 }
 
-/// Cuts the planes into windows that start where a binding may start.
+/// Cuts the planes into windows that start where a binding may start. A plane takes one group in y at most,
+/// and its mip chain (MipScan) has an entry for each α and up to one more for each level.
 std::vector<Window> cut(const Resolution& resolution, const gpu::Limits& limits) {
   const std::int64_t bytes = plane_bytes(resolution);
-  std::int64_t planes = std::min<std::int64_t>(limits.max_storage_block_bytes / bytes, resolution.theta);
+  const int levels = std::bit_width(static_cast<unsigned>(resolution.alpha));
+  const std::int64_t room = bytes + std::int64_t{levels} * resolution.phi / 8;
+  std::int64_t planes = std::min<std::int64_t>(
+      {limits.max_storage_block_bytes / room, limits.max_work_groups.y, resolution.theta});
   while (planes > 0 && planes < resolution.theta && planes * bytes % limits.storage_offset_alignment != 0)
     --planes;
-  if (planes == 0) gpu::require_storage_block(limits, bytes * resolution.theta, "the grid", k_remedy);
+  if (planes == 0) gpu::require_storage_block(limits, room * resolution.theta, "the grid", k_remedy);
   std::vector<Window> windows;
   for (int first = 0; first < resolution.theta; first += static_cast<int>(planes))
     windows.push_back({first, std::min(static_cast<int>(planes), resolution.theta - first)});
@@ -53,23 +58,22 @@ std::array<gpu::Constant, 3> resolution_constants(const Resolution& resolution) 
           gpu::Constant(2, static_cast<std::uint32_t>(resolution.phi))};
 }
 
-Grid::Grid(const gpu::Context& context, const Resolution& resolution) : resolution_(resolution) {
+Grid::Grid(const gpu::Limits& limits, const Resolution& resolution) : resolution_(resolution) {
   validate(resolution);
   const auto& [alpha, theta, phi] = resolution;
   const std::string name = fmt::format("the {} × {} × {} grid", alpha, theta, phi);
-  gpu::require_texels(context.limits(), std::int64_t{alpha} * theta * phi / 128, name, k_remedy);
+  gpu::require_texels(limits, std::int64_t{alpha} * theta * phi / 128, name, k_remedy);
   const std::int64_t light_rays = std::int64_t{theta} * phi;
-  gpu::require_storage_block(context.limits(), 4 * light_rays, "the light rays of " + name, k_remedy);
-  windows_ = cut(resolution, context.limits());
+  gpu::require_storage_block(limits, 4 * light_rays, "the light rays of " + name, k_remedy);
+  windows_ = cut(resolution, limits);
   bits_ = gpu::Buffer(plane_bytes(resolution) * theta);
   first_shadowed_ = gpu::Buffer(4 * light_rays);
-  texels_ = {context, bits_, gpu::Format::rgba32ui, name};
-  first_shadowed_texels_ = {context, first_shadowed_, gpu::Format::rgba32ui, name};
+  texels_ = {limits, bits_, gpu::Format::rgba32ui, name};
+  first_shadowed_texels_ = {limits, first_shadowed_, gpu::Format::rgba32ui, name};
   block_ = gpu::Buffer(sizeof(shaders::EpipolarBlock));
   phi_range_ = gpu::Buffer(2 * sizeof(float));
   planes_ = gpu::Buffer(std::int64_t{theta} * 4 * static_cast<std::int64_t>(sizeof(float)));
-  plane_texels_ = {context, planes_, gpu::Format::rgba32f, name};
-  pass_ = gpu::Buffer(8 * sizeof(std::uint32_t));
+  plane_texels_ = {limits, planes_, gpu::Format::rgba32f, name};
 }
 
 void Grid::bind() const {
@@ -81,25 +85,20 @@ void Grid::bind() const {
   first_shadowed_texels_.bind_sampler(shaders::k_first_shadowed_unit);
 }
 
-void Grid::begin_pass(const Window& window, const std::array<std::uint32_t, 5>& levels) const {
+void Grid::bind_window(const Window& window) const {
   const std::int64_t bytes = plane_bytes(resolution_);
   bits_.bind_storage(shaders::k_grid_storage, window.first_plane * bytes, window.planes * bytes);
-  const std::array<std::uint32_t, 8> block = {static_cast<std::uint32_t>(window.first_plane),
-                                              static_cast<std::uint32_t>(window.planes),
-                                              levels[0],
-                                              levels[1],
-                                              levels[2],
-                                              levels[3],
-                                              levels[4],
-                                              0};
-  pass_.write(block.data(), sizeof block);
-  pass_.bind_uniform(4);
 }
 
-void dispatch_planes(const gpu::Program& program, const Grid& grid, int invocations_x, glm::uvec2 group) {
+void set_window(const gpu::Pipeline& program, const Window& window) {
+  program.set(0, glm::uvec2(window.first_plane, window.planes));
+}
+
+void dispatch_planes(const gpu::Pipeline& program, const Grid& grid, int invocations_x) {
   for (const Window& window : grid.windows()) {
-    grid.begin_pass(window);
-    program.dispatch({invocations_x, window.planes, 1}, {group, 1});
+    grid.bind_window(window);
+    set_window(program, window);
+    program.dispatch({invocations_x, window.planes, 1});
   }
 }
 

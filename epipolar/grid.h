@@ -5,7 +5,7 @@
 
 #include "gpu/buffer.h"
 #include "gpu/context.h"
-#include "gpu/program.h"
+#include "gpu/pipeline.h"
 #include "gpu/texture.h"
 
 namespace airlight::epipolar {
@@ -18,7 +18,7 @@ struct Resolution {
   bool operator==(const Resolution&) const = default;
 };
 
-/// Every driver dispatches 65535 groups along an axis, and shaders/epipolar/ has groups of two or more.
+/// Beyond any image; whether the driver can hold the product of the counts is for Grid to find out.
 inline constexpr int k_largest_count = 1 << 17;
 
 /// @throws scene::Error (usage) when a count is not positive or `phi` is not a multiple of 128.
@@ -27,7 +27,8 @@ void validate(const Resolution& resolution);
 /// The specialization constants of shaders/epipolar/resolution.glsl.
 std::array<gpu::Constant, 3> resolution_constants(const Resolution& resolution);
 
-/// A run of half-planes whose bits fit into one shader storage buffer.
+/// A run of half-planes whose bits, and whose mip chain, fit into one shader storage buffer, and which one
+/// dispatch takes.
 struct Window {
   int first_plane, planes;
 };
@@ -35,11 +36,11 @@ struct Window {
 /// The grid's bits and the frame's ranges, on the GPU; see shaders/epipolar/grid.glsl.
 ///
 /// Shaders read all bits as texels. They write them a window at a time, because one storage buffer may be
-/// small: 128 MiB on llvmpipe.
+/// small: 128 MiB on llvmpipe. `limits` need not be all that the driver allows.
 class Grid {
  public:
   /// @throws scene::Error (driver) when the driver cannot hold the grid, naming its limit.
-  Grid(const gpu::Context& context, const Resolution& resolution);
+  Grid(const gpu::Limits& limits, const Resolution& resolution);
 
   const Resolution& resolution() const { return resolution_; }
   const gpu::Buffer& bits() const { return bits_; }
@@ -58,19 +59,20 @@ class Grid {
   /// What all planes together consist of.
   const std::vector<Window>& windows() const { return windows_; }
 
-  /// Makes a window, and levels of the multi-pass scan, what the next dispatches work on: binds the bits of
-  /// the window for writing, and shaders/epipolar/window.glsl.
-  void begin_pass(const Window& window, const std::array<std::uint32_t, 5>& levels = {}) const;
+  /// Binds the bits of a window for writing.
+  void bind_window(const Window& window) const;
 
  private:
   Resolution resolution_;
   std::vector<Window> windows_;
-  gpu::Buffer bits_, block_, phi_range_, planes_, first_shadowed_, pass_;
+  gpu::Buffer bits_, block_, phi_range_, planes_, first_shadowed_;
   gpu::TexelView texels_, plane_texels_, first_shadowed_texels_;
 };
 
-/// Runs `program` once a window over `invocations_x` × planes; its shader includes
-/// shaders/epipolar/window.glsl.
-void dispatch_planes(const gpu::Program& program, const Grid& grid, int invocations_x, glm::uvec2 group);
+/// Makes a window what a program works on whose shader includes shaders/epipolar/window.glsl.
+void set_window(const gpu::Pipeline& program, const Window& window);
+
+/// Runs such a program once a window over `invocations_x` × planes.
+void dispatch_planes(const gpu::Pipeline& program, const Grid& grid, int invocations_x);
 
 }  // namespace airlight::epipolar

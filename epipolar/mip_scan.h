@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "epipolar/grid.h"
-#include "gpu/program.h"
+#include "gpu/pipeline.h"
 #include "gpu/texture.h"
 
 namespace airlight::epipolar {
@@ -16,8 +16,7 @@ namespace airlight::epipolar {
 /// the level is large.
 class MipScan {
  public:
-  /// @throws scene::Error (driver) when the chain is larger than the driver allows.
-  MipScan(const gpu::Context& context, const Grid& grid);
+  MipScan(const gpu::Limits& limits, const Grid& grid);
 
   /// The grid is bound.
   void run(const Grid& grid) const;
@@ -29,9 +28,9 @@ class MipScan {
     std::uint32_t size, start;  ///< entries in α, and where they start in a plane's chain
   };
   struct Programs {
-    gpu::Program up, down;
+    gpu::Pipeline up, down;
   };
-  void pass(const gpu::Program& program, std::size_t fine, std::uint32_t entries, const Grid& grid,
+  void pass(const gpu::Pipeline& program, std::size_t fine, std::uint32_t entries, const Grid& grid,
             const Window& window) const;
 
   std::vector<Level> levels_;  ///< level 0 is the grid, which is not in the chain

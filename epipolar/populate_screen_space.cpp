@@ -42,14 +42,15 @@ std::vector<std::uint32_t> deal_apart(const std::vector<scene::Box>& boxes) {
   return group;
 }
 
-PopulateScreenSpace::PopulateScreenSpace(const gpu::Context& context, const Grid& grid)
-    : crossings_(grid.resolution(), k_populate_screen_space_comp, k_populate_screen_space_queue_comp),
-      resolve_(gpu::Program::compute(k_screen_space_resolve_comp, resolution_constants(grid.resolution()))) {
+PopulateScreenSpace::PopulateScreenSpace(const gpu::Limits& limits, const Grid& grid)
+    : limits_(limits),
+      crossings_(grid.resolution(), k_populate_screen_space_comp, k_populate_screen_space_queue_comp),
+      resolve_(gpu::Pipeline::compute(k_screen_space_resolve_comp, resolution_constants(grid.resolution()))) {
   const Resolution& n = grid.resolution();
   int planes = 0;
   for (const Window& window : grid.windows()) planes = std::max(planes, window.planes);
   flips_ = gpu::Buffer(std::int64_t{n.alpha} * planes * n.phi / 8);
-  flip_texels_ = {context, flips_, gpu::Format::rgba32ui, "the crossings of the screen-space voxelization"};
+  flip_texels_ = {limits, flips_, gpu::Format::rgba32ui, "the crossings of the screen-space voxelization"};
 }
 
 void PopulateScreenSpace::load(const frame::FrameInputs& inputs) {
@@ -79,7 +80,7 @@ void PopulateScreenSpace::load(const frame::FrameInputs& inputs) {
     triangles.push_back(geometry.triangles[triangle]);
   }
   triangles_ = gpu::Buffer::from(std::span<const glm::uvec3>(triangles));
-  triangle_texels_ = {inputs.context, triangles_, gpu::Format::rgb32ui, "the model's triangles"};
+  triangle_texels_ = {limits_, triangles_, gpu::Format::rgb32ui, "the model's triangles"};
   scene_ = inputs.scene.id();
 }
 
@@ -91,11 +92,13 @@ void PopulateScreenSpace::run(const frame::FrameInputs& inputs, const Grid& grid
   flips_.bind_storage(shaders::k_scratch_storage);
   flip_texels_.bind_sampler(shaders::k_scratch_unit);
   for (const Window& window : grid.windows()) {
-    grid.begin_pass(window);
+    grid.bind_window(window);
+    crossings_.set_window(window);
+    set_window(resolve_, window);
     for (const Pass& pass : passes_) {
       flips_.clear();
       crossings_.run(pass.first, pass.count);
-      resolve_.dispatch({grid.resolution().alpha, window.planes, 1}, {64, 1, 1});
+      resolve_.dispatch({grid.resolution().alpha, window.planes, 1});
     }
   }
 }

@@ -5,7 +5,7 @@
 #include "epipolar/grid.h"
 #include "epipolar/triangle_queue.h"
 #include "frame/methods.h"
-#include "gpu/program.h"
+#include "gpu/pipeline.h"
 #include "gpu/texture.h"
 
 namespace airlight::epipolar {
@@ -21,7 +21,7 @@ namespace airlight::epipolar {
 /// a crossing, and a second one the bits before it.
 class PopulateScreenSpace {
  public:
-  PopulateScreenSpace(const gpu::Context& context, const Grid& grid);
+  PopulateScreenSpace(const gpu::Limits& limits, const Grid& grid);
 
   /// Clears the grid and sets the bits inside solids. The view's block and the grid are bound.
   void run(const frame::FrameInputs& inputs, const Grid& grid);
@@ -34,8 +34,9 @@ class PopulateScreenSpace {
   };
   void load(const frame::FrameInputs& inputs);
 
+  gpu::Limits limits_;
   TriangleQueue crossings_;
-  gpu::Program resolve_;
+  gpu::Pipeline resolve_;
   gpu::Buffer flips_;
   gpu::TexelView flip_texels_;
   std::uint64_t scene_ = 0;  ///< whose triangles these are: SceneBuffers::id

@@ -2,7 +2,7 @@
 
 #include "epipolar/grid.h"
 #include "frame/shadow_map.h"
-#include "gpu/program.h"
+#include "gpu/pipeline.h"
 
 namespace airlight::epipolar {
 
@@ -16,7 +16,7 @@ class PopulateShadowMap {
   void run(const Grid& grid, const frame::ShadowMap& shadow_map) const;
 
  private:
-  gpu::Program program_;
+  gpu::Pipeline program_;
 };
 
 }  // namespace airlight::epipolar

@@ -7,17 +7,17 @@
 namespace airlight::epipolar {
 namespace {
 
-gpu::Program make_program(const VolumeOptions& options) {
+gpu::Pipeline make_program(const VolumeOptions& options) {
   const auto grid = resolution_constants(options.resolution);
   const bool whole_voxels = options.populate == Populate::conservative;
-  return gpu::Program::compute(k_surface_lookup_comp,
+  return gpu::Pipeline::compute(k_surface_lookup_comp,
                                std::array{grid[0], grid[1], grid[2], gpu::Constant(3, whole_voxels ? 1 : 0)});
 }
 
 }  // namespace
 
 SurfaceLookup::SurfaceLookup(const gpu::Context& context, const VolumeOptions& options)
-    : volume_(context, options), program_(make_program(options)) {}
+    : volume_(context.limits(), options), program_(make_program(options)) {}
 
 void SurfaceLookup::query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) {
   volume_.find_ranges(inputs);
@@ -25,7 +25,7 @@ void SurfaceLookup::query(const frame::FrameInputs& inputs, const gpu::Texture& 
   inputs.timer.time("surface_query", [&] {
     inputs.surfaces.bind_sampler(shaders::k_surface_unit);
     visibility.bind_image(shaders::k_output_image);
-    program_.dispatch({inputs.view.size, 1}, {8, 8, 1});
+    program_.dispatch({inputs.view.size, 1});
   });
 }
 

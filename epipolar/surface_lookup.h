@@ -2,7 +2,7 @@
 
 #include "epipolar/volume.h"
 #include "frame/method.h"
-#include "gpu/program.h"
+#include "gpu/pipeline.h"
 
 namespace airlight::epipolar {
 
@@ -24,7 +24,7 @@ class SurfaceLookup : public frame::SurfaceShadow {
 
  private:
   ShadowVolume volume_;
-  gpu::Program program_;
+  gpu::Pipeline program_;
 };
 
 frame::SurfaceMethod surface_lookup_method();

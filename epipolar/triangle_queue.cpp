@@ -13,19 +13,23 @@ struct QueueHead {
   std::uint32_t many_groups[3], many_count, most_groups[3], most_count, first_triangle, triangle_count;
 };
 
-gpu::Program load_queue(const Resolution& resolution, std::span<const std::uint32_t> spirv,
-                        std::uint32_t from_back) {
+gpu::Pipeline load_queue(const Resolution& resolution, std::span<const std::uint32_t> spirv,
+                         std::uint32_t from_back) {
   const auto grid = resolution_constants(resolution);
-  return gpu::Program::compute(spirv, std::array{grid[0], grid[1], grid[2], gpu::Constant(3, from_back)});
+  return gpu::Pipeline::compute(spirv, std::array{grid[0], grid[1], grid[2], gpu::Constant(3, from_back)});
 }
 
 }  // namespace
 
 TriangleQueue::TriangleQueue(const Resolution& resolution, std::span<const std::uint32_t> few,
                              std::span<const std::uint32_t> queue)
-    : few_(gpu::Program::compute(few, resolution_constants(resolution))),
+    : few_(gpu::Pipeline::compute(few, resolution_constants(resolution))),
       many_(load_queue(resolution, queue, 0)),
       most_(load_queue(resolution, queue, 1)) {}
+
+void TriangleQueue::set_window(const Window& window) {
+  for (const gpu::Pipeline* program : {&few_, &many_, &most_}) epipolar::set_window(*program, window);
+}
 
 void TriangleQueue::run(std::uint32_t first, std::uint32_t count) {
   constexpr std::uint32_t k_row = 256, k_groups_of_most = 16;
@@ -38,7 +42,7 @@ void TriangleQueue::run(std::uint32_t first, std::uint32_t count) {
     const std::uint32_t part = std::min(count - done, k_at_once);
     const QueueHead head = {{k_row, 0, 1}, 0, {k_row, 0, k_groups_of_most}, 0, first + done, part};
     queue_.write(&head, sizeof head);
-    few_.dispatch({part, 1, 1}, {64, 1, 1});
+    few_.dispatch({part, 1, 1});
     many_.dispatch_indirect(queue_, offsetof(QueueHead, many_groups));
     most_.dispatch_indirect(queue_, offsetof(QueueHead, most_groups));
   }

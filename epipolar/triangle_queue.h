@@ -1,7 +1,7 @@
 #pragma once
 
 #include "epipolar/grid.h"
-#include "gpu/program.h"
+#include "gpu/pipeline.h"
 
 namespace airlight::epipolar {
 
@@ -13,11 +13,14 @@ class TriangleQueue {
   TriangleQueue(const Resolution& resolution, std::span<const std::uint32_t> few,
                 std::span<const std::uint32_t> queue);
 
+  /// See epipolar::set_window; for shaders that work on one.
+  void set_window(const Window& window);
+
   /// Triangles `first` to `first` + `count` − 1 of the bound ones, some two million at a time.
   void run(std::uint32_t first, std::uint32_t count);
 
  private:
-  gpu::Program few_, many_, most_;
+  gpu::Pipeline few_, many_, most_;
   gpu::Buffer queue_;
 };
 

@@ -116,12 +116,12 @@ std::vector<frame::Option> volume_options() {
   return options;
 }
 
-ShadowVolume::ShadowVolume(const gpu::Context& context, const VolumeOptions& options)
+ShadowVolume::ShadowVolume(const gpu::Limits& limits, const VolumeOptions& options)
     : options_(options),
-      grid_(context, options.resolution),
-      planes_(gpu::Program::compute(k_planes_comp, resolution_constants(options.resolution))),
-      phi_range_(gpu::Program::compute(k_phi_range_comp)),
-      scatter_(gpu::Program::compute(k_scatter_comp, resolution_constants(options.resolution))) {
+      grid_(limits, options.resolution),
+      planes_(gpu::Pipeline::compute(k_planes_comp, resolution_constants(options.resolution))),
+      phi_range_(gpu::Pipeline::compute(k_phi_range_comp)),
+      scatter_(gpu::Pipeline::compute(k_scatter_comp, resolution_constants(options.resolution))) {
   options.validate();
   switch (options.populate) {
     case Populate::shadow_map:
@@ -131,7 +131,7 @@ ShadowVolume::ShadowVolume(const gpu::Context& context, const VolumeOptions& opt
       populate_conservative_.emplace(options.resolution);
       break;
     case Populate::screen_space:
-      populate_screen_space_.emplace(context, grid_);
+      populate_screen_space_.emplace(limits, grid_);
       break;
   }
   switch (options.used_scan()) {
@@ -142,7 +142,7 @@ ShadowVolume::ShadowVolume(const gpu::Context& context, const VolumeOptions& opt
       or_scan_.emplace(options.resolution);
       break;
     case Scan::multi_pass:
-      mip_scan_.emplace(context, grid_);
+      mip_scan_.emplace(limits, grid_);
       break;
   }
 }
@@ -160,14 +160,14 @@ shaders::EpipolarBlock ShadowVolume::find_ranges(const frame::FrameInputs& input
     grid_.phi_range().clear();
     grid_.bind();
     grid_.planes().bind_storage(shaders::k_planes_storage);
-    planes_.dispatch({options_.resolution.theta, 1, 1}, {64, 1, 1});
+    planes_.dispatch({options_.resolution.theta, 1, 1});
     if (options_.ranges == Ranges::full) {
       const auto order_of_pi = std::bit_cast<std::uint32_t>(2.0f);
       grid_.phi_range().write(&order_of_pi, sizeof order_of_pi);
     } else {
       inputs.surfaces.bind_sampler(shaders::k_surface_unit);
       const glm::uvec2 size = inputs.view.size;
-      phi_range_.dispatch({size.x, (size.y + 31) / 32, 1}, {64, 1, 1});
+      phi_range_.dispatch({size.x, (size.y + 31) / 32, 1});
     }
   });
   return block;

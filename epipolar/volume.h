@@ -61,7 +61,7 @@ class ShadowVolume {
  public:
   /// @throws scene::Error (usage) where options contradict each other or are still automatic; (driver) as
   /// Grid
-  ShadowVolume(const gpu::Context& context, const VolumeOptions& options);
+  ShadowVolume(const gpu::Limits& limits, const VolumeOptions& options);
 
   /// Finds the ranges of α, θ and φ for a view, and cuts φ equally. Times `ranges`. Leaves the grid bound.
   /// @returns what it wrote to the grid's block
@@ -81,7 +81,7 @@ class ShadowVolume {
 
   VolumeOptions options_;
   Grid grid_;
-  gpu::Program planes_, phi_range_, scatter_;
+  gpu::Pipeline planes_, phi_range_, scatter_;
   std::optional<PopulateShadowMap> populate_shadow_map_;
   std::optional<PopulateConservative> populate_conservative_;
   std::optional<PopulateScreenSpace> populate_screen_space_;

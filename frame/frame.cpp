@@ -132,7 +132,7 @@ void Frame::composite(const gpu::Texture& visibility, const gpu::Texture& airlig
   const gpu::Texture* light_texture = resources_.light_texture();
   const bool is_textured = light_texture != nullptr;
   if (!composite_.contains({is_textured, adds})) {
-    composite_[{is_textured, adds}] = gpu::Program::compute(
+    composite_[{is_textured, adds}] = gpu::Pipeline::compute(
         k_composite_comp, std::array{gpu::Constant(0, is_textured), gpu::Constant(1, adds)});
   }
   resources_.scene().bind_samplers();
@@ -143,7 +143,7 @@ void Frame::composite(const gpu::Texture& visibility, const gpu::Texture& airlig
   if (light_texture) light_texture->bind_sampler(shaders::k_light_texture_unit);
   radiance_.bind_image(shaders::k_output_image);
   airlight_.bind_image(shaders::k_sum_image);
-  composite_[{is_textured, adds}].dispatch({radiance_.size(), 1}, {8, 8, 1});
+  composite_[{is_textured, adds}].dispatch({radiance_.size(), 1});
 }
 
 FrameImages Frame::read() const {

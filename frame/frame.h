@@ -9,7 +9,7 @@
 #include "frame/methods.h"
 #include "frame/resources.h"
 #include "gpu/buffer.h"
-#include "gpu/program.h"
+#include "gpu/pipeline.h"
 
 namespace airlight::frame {
 
@@ -53,7 +53,7 @@ class Frame {
   gpu::Context& context_;
   Resources resources_;
   gpu::Buffer camera_block_, light_block_, medium_block_;
-  std::map<std::pair<bool, bool>, gpu::Program> composite_;  ///< by: the light is textured, it adds
+  std::map<std::pair<bool, bool>, gpu::Pipeline> composite_;  ///< by: the light is textured, it adds
 
   std::optional<GBuffer> gbuffer_;
   std::vector<gpu::Texture> visibility_;  ///< one a light

@@ -12,23 +12,25 @@ GBuffer::GBuffer(glm::ivec2 size)
     : triangles_(gpu::Format::r32ui, size),
       surfaces_(gpu::Format::rgba32f, size),
       depth_(gpu::Format::depth32f, size),
-      framebuffer_(&triangles_, depth_, 0),
-      draw_(gpu::Program::graphics(k_gbuffer_vert, k_gbuffer_frag)),
-      resolve_(gpu::Program::compute(k_surfaces_comp)) {}
+      framebuffer_({triangles_}, depth_),
+      draw_(
+          gpu::Pipeline::graphics({.vertex = k_gbuffer_vert, .fragment = k_gbuffer_frag}, k_reversed_depth)),
+      resolve_(gpu::Pipeline::compute(k_surfaces_comp)) {}
 
 void GBuffer::draw(const SceneBuffers& scene, const scene::CameraFrame& camera) const {
-  framebuffer_.begin();
-  draw_.use();
-  scene.draw({.apex = camera.eye,
-              .right = camera.right,
-              .up = camera.up,
-              .forward = camera.forward,
-              .half_width = camera.half_width,
-              .half_height = camera.half_height});
+  framebuffer_.clear();
+  draw_.draw(framebuffer_, [&] {
+    scene.draw({.apex = camera.eye,
+                .right = camera.right,
+                .up = camera.up,
+                .forward = camera.forward,
+                .half_width = camera.half_width,
+                .half_height = camera.half_height});
+  });
   scene.bind_samplers();
   triangles_.bind_sampler(shaders::k_triangle_unit);
   surfaces_.bind_image(shaders::k_output_image);
-  resolve_.dispatch({triangles_.size(), 1}, {8, 8, 1});
+  resolve_.dispatch({triangles_.size(), 1});
 }
 
 }  // namespace airlight::frame

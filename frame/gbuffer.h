@@ -1,7 +1,7 @@
 #pragma once
 
 #include "frame/scene_buffers.h"
-#include "gpu/program.h"
+#include "gpu/pipeline.h"
 #include "gpu/texture.h"
 
 namespace airlight::frame {
@@ -23,7 +23,7 @@ class GBuffer {
  private:
   gpu::Texture triangles_, surfaces_, depth_;
   gpu::Framebuffer framebuffer_;
-  gpu::Program draw_, resolve_;
+  gpu::Pipeline draw_, resolve_;
 };
 
 }  // namespace airlight::frame

@@ -41,10 +41,10 @@ SceneBuffers::SceneBuffers(const gpu::Context& context, const scene::Geometry& g
   albedos_ = upload(albedos);
   material_of_triangle_ = upload(materials);
   first_triangles_ = upload(first_triangles);
-  position_texels_ = {context, positions_, gpu::Format::rgb32f, "the model's vertices"};
-  triangle_texels_ = {context, triangles_, gpu::Format::rgb32ui, "the model's triangles"};
-  albedo_texels_ = {context, albedos_, gpu::Format::rgba32f, "the model's materials"};
-  material_texels_ = {context, material_of_triangle_, gpu::Format::r32ui, "the model's triangles"};
+  position_texels_ = {context.limits(), positions_, gpu::Format::rgb32f, "the model's vertices"};
+  triangle_texels_ = {context.limits(), triangles_, gpu::Format::rgb32ui, "the model's triangles"};
+  albedo_texels_ = {context.limits(), albedos_, gpu::Format::rgba32f, "the model's materials"};
+  material_texels_ = {context.limits(), material_of_triangle_, gpu::Format::r32ui, "the model's triangles"};
 
   GLuint name = 0;
   glCreateVertexArrays(1, &name);

@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "frame/reversed_depth.h"
 #include "scene/error.h"
 
 #include "spirv/frame/shadow_map_frag.h"
 #include "spirv/frame/shadow_map_vert.h"
-
-#include <epoxy/gl.h>
 
 namespace airlight::frame {
 
@@ -20,25 +19,29 @@ ShadowMap::ShadowMap(const gpu::Context& context, int size) {
         "ask for a smaller one");
   }
   depth_ = gpu::Texture(gpu::Format::depth32f, {size, size}, 6);
-  for (int face = 0; face < 6; ++face) faces_.emplace_back(nullptr, depth_, face);
-  program_ = gpu::Program::graphics(k_shadow_map_vert, k_shadow_map_frag);
+  for (int face = 0; face < 6; ++face)
+    faces_.push_back(gpu::Framebuffer({}, gpu::Attachment(depth_, 0, face)));
+  program_ =
+      gpu::Pipeline::graphics({.vertex = k_shadow_map_vert, .fragment = k_shadow_map_frag}, k_reversed_depth);
 }
 
 void ShadowMap::draw(const SceneBuffers& scene, glm::dvec3 light) const {
-  program_.use();
   for (int face = 0; face < 6; ++face) {
-    faces_[static_cast<std::size_t>(face)].begin();
-    glUniform1i(0, face);
+    const gpu::Framebuffer& target = faces_[static_cast<std::size_t>(face)];
+    target.clear();
+    program_.set(0, face);
     // The same axes as in shaders/frame/shadow_cube.glsl.
     const int axis = face / 2;
     const auto unit = [](int i) { return glm::dvec3(i == 0, i == 1, i == 2); };
     const glm::dvec3 forward = unit(axis) * (face % 2 == 0 ? 1.0 : -1.0);
-    scene.draw({.apex = light,
-                .right = unit((axis + 1) % 3),
-                .up = unit((axis + 2) % 3),
-                .forward = forward,
-                .half_width = 1.0,
-                .half_height = 1.0});
+    program_.draw(target, [&] {
+      scene.draw({.apex = light,
+                  .right = unit((axis + 1) % 3),
+                  .up = unit((axis + 2) % 3),
+                  .forward = forward,
+                  .half_width = 1.0,
+                  .half_height = 1.0});
+    });
   }
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "frame/scene_buffers.h"
-#include "gpu/program.h"
+#include "gpu/pipeline.h"
 #include "gpu/texture.h"
 
 namespace airlight::frame {
@@ -24,7 +24,7 @@ class ShadowMap {
  private:
   gpu::Texture depth_;
   std::vector<gpu::Framebuffer> faces_;
-  gpu::Program program_;
+  gpu::Pipeline program_;
 };
 
 }  // namespace airlight::frame

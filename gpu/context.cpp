@@ -70,14 +70,6 @@ EGLContext try_context(EGLDisplay display) {
   return EGL_NO_CONTEXT;
 }
 
-void collect_error(GLenum, GLenum, GLuint, GLenum severity, GLsizei, const GLchar* message,
-                   const void* errors) {
-  if (severity != GL_DEBUG_SEVERITY_HIGH) return;
-  auto& text = *static_cast<std::string*>(const_cast<void*>(errors));
-  text += text.empty() ? "" : " | ";
-  text += message;
-}
-
 std::string gl_string(GLenum name) {
   const auto* text = reinterpret_cast<const char*>(glGetString(name));
   return text ? text : "";
@@ -91,7 +83,14 @@ int gl_integer(GLenum name) {
 
 }  // namespace
 
-Context::Context() {
+bool is_software_renderer(const std::string& renderer) {
+  // Zink names the Vulkan driver under it: lavapipe calls itself llvmpipe.
+  constexpr std::array k_names = {"llvmpipe", "softpipe", "lavapipe", "SwiftShader", "swrast"};
+  return std::any_of(k_names.begin(), k_names.end(),
+                     [&](const char* name) { return lists(renderer.c_str(), name); });
+}
+
+Context::Context(DebugOutput debug_output) {
   for (EGLDisplay display : candidate_displays()) {
     if (EGLContext context = try_context(display); context != EGL_NO_CONTEXT) {
       display_ = display;
@@ -103,18 +102,37 @@ Context::Context() {
     throw Error(ExitCode::driver, "EGL", "no headless OpenGL 4.5 core context can be had",
                 "install a driver, such as Mesa's (libegl1, libgl1-mesa-dri)");
   }
-  glEnable(GL_DEBUG_OUTPUT);
-  glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
-  glDebugMessageCallback(collect_error, &errors_);
+  set_up(debug_output);
+}
 
+Context::Context(Adopted, DebugOutput debug_output) {
+  set_up(debug_output);
+}
+
+Context Context::adopt_current(DebugOutput debug_output) {
+  return Context(Adopted{}, debug_output);
+}
+
+void Context::set_up(DebugOutput debug_output) {
   device_.renderer = gl_string(GL_RENDERER);
   device_.version = gl_string(GL_VERSION);
-  device_.is_software =
-      lists(device_.renderer.c_str(), "llvmpipe") || lists(device_.renderer.c_str(), "softpipe");
+  device_.is_software = is_software_renderer(device_.renderer);
+  if (epoxy_gl_version() < 45) {
+    throw Error(ExitCode::driver, device_.renderer, "it has OpenGL " + device_.version,
+                "use a driver with OpenGL 4.5");
+  }
   if (!epoxy_has_gl_extension("GL_ARB_gl_spirv") && epoxy_gl_version() < 46) {
     throw Error(ExitCode::driver, device_.renderer, "GL_ARB_gl_spirv is missing",
                 "use a driver with OpenGL 4.6");
   }
+  glEnable(GL_DEBUG_OUTPUT);
+  if (debug_output == DebugOutput::synchronous) {
+    glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+  } else {
+    glDisable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+  }
+  glDebugMessageCallback(collect, &errors_);
+
   GLint64 storage_block = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &storage_block);
   GLint viewport[2] = {0, 0};
@@ -125,19 +143,34 @@ Context::Context() {
              .max_viewport = std::min(viewport[0], viewport[1]),
              .max_array_layers = gl_integer(GL_MAX_ARRAY_TEXTURE_LAYERS),
              .max_work_group_invocations = gl_integer(GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS),
+             .max_work_groups = max_work_groups(),
              .storage_offset_alignment = gl_integer(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT)};
   check();
 }
 
 Context::~Context() {
+  if (!context_) {
+    glDebugMessageCallback(nullptr, nullptr);  // an adopted context goes on without us
+    return;
+  }
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroyContext(display_, context_);
   eglTerminate(display_);
 }
 
+void Context::collect(unsigned, unsigned, unsigned, unsigned severity, int, const char* message,
+                      const void* errors) {
+  if (severity != GL_DEBUG_SEVERITY_HIGH) return;
+  auto& [mutex, text] = *static_cast<Errors*>(const_cast<void*>(errors));
+  const std::lock_guard lock(mutex);
+  text += text.empty() ? "" : " | ";
+  text += message;
+}
+
 void Context::check() {
-  if (errors_.empty()) return;
-  throw Error(ExitCode::driver, device_.renderer, std::exchange(errors_, {}));
+  const std::lock_guard lock(errors_.mutex);
+  if (errors_.text.empty()) return;
+  throw Error(ExitCode::driver, device_.renderer, std::exchange(errors_.text, {}));
 }
 
 void Context::finish() {
@@ -163,6 +196,22 @@ void require_texels(const Limits& limits, std::int64_t texels, const std::string
               fmt::format("{} texels are more than this driver's {} (GL_MAX_TEXTURE_BUFFER_SIZE)", texels,
                           limits.max_texel_buffer_texels),
               remedy);
+}
+
+glm::uvec3 max_work_groups() {
+  glm::ivec3 most(0);
+  for (int axis = 0; axis < 3; ++axis)
+    glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, static_cast<GLuint>(axis), &most[axis]);
+  return most;
+}
+
+void require_work_groups(glm::uvec3 most, glm::uvec3 groups) {
+  if (!glm::any(glm::greaterThan(groups, most))) return;
+  throw Error(ExitCode::driver, "dispatch",
+              fmt::format("{} × {} × {} work groups are more than this driver's {} × {} × {} "
+                          "(GL_MAX_COMPUTE_WORK_GROUP_COUNT)",
+                          groups.x, groups.y, groups.z, most.x, most.y, most.z),
+              "ask for less: a smaller image or a coarser grid");
 }
 
 }  // namespace airlight::gpu

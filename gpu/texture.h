@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -13,52 +14,91 @@
 namespace airlight::gpu {
 
 void delete_texture(unsigned name);
-void delete_framebuffer(unsigned name);
 
 /// The formats in use, as OpenGL's sized internal formats.
-enum class Format : unsigned { r32ui, rgb32ui, rgba32ui, r32f, rg32f, rgb32f, rgba32f, depth32f };
+enum class Format {
+  r32ui,
+  rgb32ui,
+  rgba32ui,
+  r16f,
+  rg16f,
+  rgba16f,
+  r32f,
+  rg32f,
+  rgb32f,
+  rgba32f,
+  depth32f,
+  depth32f_stencil8
+};
 
-/// A 2D texture, or an array of them, with one level and nearest sampling unless told otherwise.
+/// Whether its values are floating-point numbers, of colour or of depth.
+bool is_float(Format format);
+
+/// A texel of Format::depth32f_stencil8, as it is written and read.
+struct DepthStencil {
+  float depth;
+  std::uint32_t stencil;  ///< its low 8 bits
+};
+
+/// What samplers do beyond the sides of a texture, left and right.
+enum class Wrap { clamp, repeat };
+
+/// An image, a stack of them (layers), or a volume; each level has half the size of the one before it.
+/// Samplers take the nearest texel of the nearest level unless told otherwise.
 class Texture {
  public:
   Texture() = default;
-  Texture(Format format, glm::ivec2 size, int layers = 1);
+
+  /// An image, sampled as a 2D texture; with more than one layer as an array of them.
+  Texture(Format format, glm::ivec2 size, int layers = 1, int levels = 1);
+
+  /// A 3D texture.
+  static Texture volume(Format format, glm::ivec3 size, int levels = 1);
 
   unsigned name() const { return handle_.get(); }
   Format format() const { return format_; }
-  glm::ivec2 size() const { return size_; }
-  int layers() const { return layers_; }
-  std::int64_t bytes() const;
+  int levels() const { return levels_; }
+  int layers() const { return is_volume_ ? 1 : size_.z; }
+  glm::ivec2 size(int level = 0) const { return extent(level); }
+  glm::ivec3 extent(int level = 0) const;  ///< of a level: width, height, and layers or depth [texels]
+  std::int64_t bytes() const;              ///< of all levels
 
-  /// From now on samplers interpolate between texels, around the sides, not over the top and the bottom.
-  /// llvmpipe does so in single precision; a GPU may round the weights to 1/256.
-  void sample_bilinearly_around() const;
+  /// From now on samplers interpolate between texels and between levels. llvmpipe does so in single
+  /// precision; a GPU may round the weights to 1/256.
+  void sample_linearly(Wrap horizontally = Wrap::clamp) const;
 
   /// From now on samplers see the red channel in green and blue, too.
   void sample_as_grey() const;
 
   void bind_sampler(unsigned unit) const;
-  void bind_image(unsigned unit) const;  ///< for reads and writes
+  void bind_image(unsigned unit, int level = 0) const;  ///< for reads and writes, with all layers
 
-  /// Writes layer 0. @param values 32-bit values, row 0 first, as many channels as the format has
-  void write(const void* values) const;
+  /// Writes a level. @param values as `read` returns them
+  void write(const void* values, int level = 0) const;
 
-  /// Waits for the GPU and copies layer 0 back: 32-bit values, as many channels as the format has.
+  /// Waits for the GPU and copies a level back.
+  /// @tparam T one texel: as many channels as the format has, in 32 bits also where the format has 16; or
+  /// DepthStencil
+  /// @returns row 0 first, layer after layer
   template <typename T>
-  std::vector<T> read() const {
-    static_assert(sizeof(T) % 4 == 0);
-    std::vector<T> values(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y));
-    read_bytes(values.data(), values.size() * sizeof(T));
+  std::vector<T> read(int level = 0) const {
+    assert(sizeof(T) == transfer_bytes());
+    const glm::ivec3 size = extent(level);
+    std::vector<T> values(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
+                          static_cast<std::size_t>(size.z));
+    read_bytes(level, values.data(), values.size() * sizeof(T));
     return values;
   }
 
  private:
-  void read_bytes(void* destination, std::size_t bytes) const;
+  std::size_t transfer_bytes() const;  ///< of a texel that is written or read
+  void read_bytes(int level, void* destination, std::size_t bytes) const;
 
   Handle<delete_texture> handle_;
   Format format_{};
-  glm::ivec2 size_{0};
-  int layers_ = 0;
+  glm::ivec3 size_{0};
+  bool is_volume_ = false;
+  int levels_ = 0;
 };
 
 /// A buffer seen through a sampler (usamplerBuffer, samplerBuffer): what shaders only read, they read this
@@ -68,30 +108,13 @@ class TexelView {
  public:
   TexelView() = default;
 
-  /// @throws scene::Error (driver) when the buffer has more texels than the driver allows.
-  TexelView(const Context& context, const Buffer& buffer, Format format, const std::string& what);
+  /// @throws scene::Error (driver) when the buffer has more texels than `limits` allows.
+  TexelView(const Limits& limits, const Buffer& buffer, Format format, const std::string& what);
 
   void bind_sampler(unsigned unit) const;
 
  private:
   Handle<delete_texture> handle_;
-};
-
-/// A set of attachments to draw into.
-class Framebuffer {
- public:
-  Framebuffer() = default;
-
-  /// @param colour may be nullptr; @param depth_layer which layer of `depth` to draw into
-  Framebuffer(const Texture* colour, const Texture& depth, int depth_layer);
-
-  /// Makes it the target, with a viewport over all of it. Depth runs from 1 (near) to 0 (infinity).
-  void begin() const;
-
- private:
-  Handle<delete_framebuffer> handle_;
-  glm::ivec2 size_{0};
-  bool has_colour_ = false;
 };
 
 }  // namespace airlight::gpu

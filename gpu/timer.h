@@ -3,42 +3,67 @@
 #include <chrono>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "gpu/context.h"
+#include "gpu/handle.h"
 
 namespace airlight::gpu {
 
-/// Wall-clock time of the stages of a frame.
+void delete_query(unsigned name);
+
+/// Who tells a StageTimer the time.
+enum class StageClock {
+  /// Timestamps that the GPU takes as it gets there: nothing is held up.
+  gpu,
+  /// The CPU, with the GPU finished at both ends of each stage: right for a software driver, which bins and
+  /// defers its draws, so that its timestamps do not see them; costs a GPU its overlap between stages.
+  wall,
+};
+
+/// The clock that is right for a device.
+StageClock stage_clock(const Device& device);
+
+/// Time of the stages of a frame, which may nest: what an inner stage takes is its own, and not the outer's.
 ///
-/// Where stages are timed, the GPU is finished at both ends of each, so that a stage's time is its own: a
-/// software driver bins and defers its draws, and its timestamp queries do not see that. This costs a GPU its
-/// overlap between stages, so whole frames are timed with a timer that is off.
+/// Of no more use after a stage has thrown.
 class StageTimer {
  public:
-  /// @param context finished around each stage; nullptr turns the timer off
-  explicit StageTimer(Context* context) : context_(context) {}
+  /// With the clock that is right for the context's device.
+  /// @param context nullptr turns the timer off: stages are run, and nothing else
+  explicit StageTimer(Context* context);
+  StageTimer(Context& context, StageClock clock) : context_(&context), clock_(clock) {}
 
-  /// Runs `stage` and adds its milliseconds to those of `name`.
+  /// Runs `stage` and adds its time to that of `name`.
   template <typename Function>
   void time(const std::string& name, Function&& stage) {
-    if (!context_) {
-      stage();
-      return;
-    }
-    const auto start = begin();
+    begin(name);
     stage();
-    end(name, start);
+    end();
   }
 
-  const std::map<std::string, double>& milliseconds() const { return milliseconds_; }
+  /// Of each stage that has run [ms]. Waits for the GPU to have got so far. No stage is running.
+  std::map<std::string, double> milliseconds() const;
 
  private:
   using Clock = std::chrono::steady_clock;
-  Clock::time_point begin();
-  void end(const std::string& name, Clock::time_point start);
+
+  /// A moment, and which stage the time after it belongs to; "" for none.
+  struct Mark {
+    std::string stage;
+    Clock::time_point wall;
+    Handle<delete_query> query;
+  };
+
+  void begin(const std::string& name);
+  void end();
+  void mark();
+  double milliseconds_between(const Mark& from, const Mark& to) const;
 
   Context* context_;
-  std::map<std::string, double> milliseconds_;
+  StageClock clock_ = StageClock::wall;
+  std::vector<std::string> running_;  ///< innermost last
+  std::vector<Mark> marks_;
 };
 
 }  // namespace airlight::gpu

@@ -33,7 +33,7 @@ std::uint32_t direct_cells(const shaders::EpipolarBlock& space, const epipolar::
 }  // namespace
 
 Vsv::Vsv(const gpu::Context& context, const VsvOptions& options)
-    : options_(options), volume_(context, options.volume) {}
+    : options_(options), volume_(context.limits(), options.volume) {}
 
 void Vsv::load(const gpu::Context& context, const Variant& variant) {
   if (loaded_ == variant) return;
@@ -48,14 +48,14 @@ void Vsv::load(const gpu::Context& context, const Variant& variant) {
       gpu::Constant(5, k_table_rows),
       gpu::Constant(6, variant.direct),
       gpu::Constant(7, options_.integral == VsvIntegral::factored)};
-  phi_growth_ = gpu::Program::compute(k_phi_growth_comp, std::array{grid[0], constants[3]});
+  phi_growth_ = gpu::Pipeline::compute(k_phi_growth_comp, std::array{grid[0], constants[3]});
   if (options_.integral != VsvIntegral::riemann) {
-    build_table_ = gpu::Program::compute(k_vsv_table_build_comp, std::span(constants).first<6>());
-    integrate_ = gpu::Program::compute(k_vsv_table_comp, constants);
+    build_table_ = gpu::Pipeline::compute(k_vsv_table_build_comp, std::span(constants).first<6>());
+    integrate_ = gpu::Pipeline::compute(k_vsv_table_comp, constants);
     table_ = gpu::Buffer(std::int64_t{k_table_rows} * (resolution.phi + 1) * variant.channels * 8);
-    table_texels_ = {context, table_, gpu::Format::rg32f, "the table integral"};
+    table_texels_ = {context.limits(), table_, gpu::Format::rg32f, "the table integral"};
   } else {
-    integrate_ = gpu::Program::compute(
+    integrate_ = gpu::Pipeline::compute(
         k_vsv_riemann_comp,
         std::array{grid[0], grid[1], grid[2], constants[3], gpu::Constant(4, variant.light_textured)});
   }
@@ -82,7 +82,7 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
   load(inputs.context, {static_cast<std::uint32_t>(inputs.view.medium.phase), is_grey ? 1u : 3u,
                         direct_cells(space, volume_.grid().resolution()), light_texture != nullptr});
   if (options_.phi_cells == PhiCells::growing)
-    inputs.timer.time("ranges", [&] { phi_growth_.dispatch({1, 1, 1}, {1, 1, 1}); });
+    inputs.timer.time("ranges", [&] { phi_growth_.dispatch({1, 1, 1}); });
 
   // Visibility.
   volume_.fill(inputs);
@@ -91,7 +91,7 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
   if (has_table) {
     inputs.timer.time("table", [&] {
       table_.bind_storage(shaders::k_table_storage);
-      build_table_.dispatch({k_table_rows, 1, 1}, {8, 1, 1});
+      build_table_.dispatch({k_table_rows, 1, 1});
     });
   }
   inputs.timer.time("integrate", [&] {
@@ -99,7 +99,7 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
     if (has_table) table_texels_.bind_sampler(shaders::k_table_unit);
     if (light_texture) light_texture->bind_sampler(shaders::k_light_texture_unit);
     radiance.bind_image(shaders::k_output_image);
-    integrate_.dispatch({inputs.view.size, 1}, {8, 8, 1});
+    integrate_.dispatch({inputs.view.size, 1});
   });
 }
 

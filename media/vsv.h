@@ -65,7 +65,7 @@ class Vsv : public frame::Airlight {
   std::optional<Variant> loaded_;
   gpu::Buffer table_;
   gpu::TexelView table_texels_;
-  gpu::Program phi_growth_, build_table_, integrate_;
+  gpu::Pipeline phi_growth_, build_table_, integrate_;
 };
 
 frame::AirlightMethod vsv_method();

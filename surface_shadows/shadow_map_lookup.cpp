@@ -7,7 +7,7 @@
 
 namespace airlight::surface_shadows {
 
-ShadowMapLookup::ShadowMapLookup() : program_(gpu::Program::compute(k_shadow_map_lookup_comp)) {}
+ShadowMapLookup::ShadowMapLookup() : program_(gpu::Pipeline::compute(k_shadow_map_lookup_comp)) {}
 
 void ShadowMapLookup::query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) {
   const frame::ShadowMap& shadow_map = inputs.shadow_map();
@@ -15,7 +15,7 @@ void ShadowMapLookup::query(const frame::FrameInputs& inputs, const gpu::Texture
     inputs.surfaces.bind_sampler(shaders::k_surface_unit);
     shadow_map.depth().bind_sampler(shaders::k_shadow_map_unit);
     visibility.bind_image(shaders::k_output_image);
-    program_.dispatch({inputs.view.size, 1}, {8, 8, 1});
+    program_.dispatch({inputs.view.size, 1});
   });
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "frame/method.h"
-#include "gpu/program.h"
+#include "gpu/pipeline.h"
 
 namespace airlight::surface_shadows {
 
@@ -14,7 +14,7 @@ class ShadowMapLookup : public frame::SurfaceShadow {
   void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override;
 
  private:
-  gpu::Program program_;
+  gpu::Pipeline program_;
 };
 
 frame::SurfaceMethod shadow_map_method();

@@ -8,6 +8,13 @@
 
 layout(local_size_x = 32, local_size_y = 2) in;
 layout(constant_id = 3) const uint k_fine_is_grid = 0;
+// The two levels: entries in α, and where they start in a plane's chain.
+layout(location = 1) uniform uvec4 levels;
+#define fine_size levels.x
+#define fine_start levels.y
+#define coarse_size levels.z
+#define coarse_start levels.w
+layout(location = 2) uniform uint chain_size;  // entries of all levels above 0
 layout(binding = k_grid_unit) uniform usamplerBuffer grid_texels;
 layout(binding = k_scratch_unit) uniform usamplerBuffer chain_texels;
 layout(std430, binding = k_grid_storage) writeonly buffer Grid { uvec4 grid[]; };

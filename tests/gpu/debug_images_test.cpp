@@ -27,7 +27,7 @@ Debugged debug(const char* scene, glm::ivec2 size, const VolumeOptions& settings
   const scene::Geometry& geometry = builtin(scene).geometry;
   const scene::View view = view_of(builtin(scene), size);
   tests::look_into_frame(geometry, view, 512, [&](const frame::FrameInputs& inputs) {
-    ShadowVolume volume(inputs.context, settings);
+    ShadowVolume volume(inputs.context.limits(), settings);
     debugged.space = volume.find_ranges(inputs);
     volume.fill(inputs);
     debugged.bits = volume.grid().bits().read<std::uint32_t>();

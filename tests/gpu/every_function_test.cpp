@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "gpu/buffer.h"
-#include "gpu/program.h"
+#include "gpu/pipeline.h"
 #include "media/medium.h"
 #include "support/gpu_context.h"
 #include "support/random.h"
@@ -105,10 +105,10 @@ TEST(EveryFunction, OnTheGpuEqualsTheSameOnTheCpu) {
   const std::vector<Inputs> inputs = random_inputs(count);
   const gpu::Buffer input_buffer = gpu::Buffer::from(std::span<const Inputs>(inputs));
   const gpu::Buffer output_buffer(static_cast<std::int64_t>(sizeof(Outputs)) * count);
-  const gpu::Program program = gpu::Program::compute(k_every_function_comp);
+  const gpu::Pipeline program = gpu::Pipeline::compute(k_every_function_comp);
   input_buffer.bind_storage(0);
   output_buffer.bind_storage(1);
-  program.dispatch({count, 1, 1}, {64, 1, 1});
+  program.dispatch({count, 1, 1});
   const std::vector<Outputs> gpu_outputs = output_buffer.read<Outputs>();
   context.check();
 

@@ -1,8 +1,10 @@
 #include "epipolar/grid.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -30,7 +32,7 @@ TEST(Grid, OverTheDriversLimitIsAnErrorThatNamesIt) {
   int theta = 1;
   while (std::int64_t{4} * (1 << 17) * theta <= limit && theta < 1 << 17) theta *= 2;
   try {
-    const Grid grid(context, {1 << 17, theta, 512});
+    const Grid grid(context.limits(), {1 << 17, theta, 512});
     FAIL() << "the driver takes any grid";
   } catch (const scene::Error& error) {
     EXPECT_EQ(error.exit_code, scene::ExitCode::driver);
@@ -46,7 +48,7 @@ TEST(Grid, LightRaysOverTheDriversLimitAreAnErrorThatNamesIt) {
   int theta = 1;
   while (std::int64_t{4} * (1 << 17) * theta <= limit && theta < 1 << 17) theta *= 2;
   try {
-    const Grid grid(context, {1, theta, 1 << 17});
+    const Grid grid(context.limits(), {1, theta, 1 << 17});
     FAIL() << "the driver takes any number of light rays";
   } catch (const scene::Error& error) {
     EXPECT_EQ(error.exit_code, scene::ExitCode::driver);
@@ -66,7 +68,7 @@ TEST(Grid, LargerThanOneStorageBufferIsFilledWindowByWindow) {
   tests::look_into_frame(
       scene.geometry, view_of(scene, {32, 32}), 256, [&](const frame::FrameInputs& inputs) {
         const auto bits = [&](Scan scan) {
-          ShadowVolume volume(inputs.context, {.resolution = n, .scan = scan});
+          ShadowVolume volume(inputs.context.limits(), {.resolution = n, .scan = scan});
           tests::build(volume, inputs, 1.0f);
           EXPECT_GT(volume.grid().windows().size(), 1u);
           EXPECT_EQ(volume.grid().bits().bytes(), bytes);
@@ -86,6 +88,74 @@ TEST(Grid, LargerThanOneStorageBufferIsFilledWindowByWindow) {
         for (std::size_t plane = 1; plane < 5120; ++plane)
           EXPECT_NEAR(set_in(plane), set_in(plane - 1), 0.05 * 32 * static_cast<double>(words)) << plane;
       });
+}
+
+/// How the grid is filled and scanned.
+using Way = std::tuple<Populate, Scan>;
+
+class GridWindows : public testing::TestWithParam<Way> {};
+
+TEST_P(GridWindows, GiveTheBitsOfOne) {
+  const auto& [populate, scan] = GetParam();
+  const Resolution n{160, 37, 256};
+  const std::int64_t plane_bytes = std::int64_t{160} * 256 / 8;
+  const scene::Scene& scene = builtin("sphere");
+  tests::look_into_frame(
+      scene.geometry, view_of(scene, {32, 32}), 128, [&](const frame::FrameInputs& inputs) {
+        const gpu::Limits& all = inputs.context.limits();
+        const VolumeSettings settings{.resolution = n, .populate = populate, .scan = scan};
+        const auto bits = [&](const gpu::Limits& limits, std::size_t windows, int planes) {
+          ShadowVolume volume(limits, settings);
+          EXPECT_EQ(volume.grid().windows().size(), windows);
+          EXPECT_EQ(volume.grid().windows().front().planes, planes);
+          tests::build(volume, inputs, 1.0f);
+          const auto first = volume.grid().bits().read<std::uint32_t>();
+          tests::build(volume, inputs, 1.0f);
+          EXPECT_TRUE(volume.grid().bits().read<std::uint32_t>() == first) << "built again";
+          return first;
+        };
+        const std::vector<std::uint32_t> one = bits(all, 1, 37);
+        EXPECT_GT(std::count_if(one.begin(), one.end(), [](std::uint32_t word) { return word != 0; }), 100);
+        gpu::Limits small_buffers = all;
+        // Enough for the light rays, and for the mip chain of eight planes, but not of nine.
+        small_buffers.max_storage_block_bytes = 9 * plane_bytes;
+        EXPECT_TRUE(bits(small_buffers, 5, 8) == one);
+        gpu::Limits small_dispatches = all;
+        small_dispatches.max_work_groups.y = 7;
+        EXPECT_TRUE(bits(small_dispatches, 6, 7) == one);
+      });
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Ways, GridWindows,
+    testing::Values(Way{Populate::shadow_map, Scan::fused}, Way{Populate::shadow_map, Scan::column},
+                    Way{Populate::shadow_map, Scan::multi_pass}, Way{Populate::conservative, Scan::fused},
+                    Way{Populate::conservative, Scan::column}, Way{Populate::conservative, Scan::multi_pass},
+                    Way{Populate::screen_space, Scan::column},
+                    Way{Populate::screen_space, Scan::multi_pass}));
+
+TEST(Grid, OfMorePlanesThanADispatchTakesIsFilledInSeveral) {
+  gpu::Context& context = tests::gpu_context();
+  const std::uint32_t most = context.limits().max_work_groups.y;
+  if (most >= 1u << 17) GTEST_SKIP() << "one dispatch of this driver takes any grid";
+  const Resolution n{1, static_cast<int>(most) + 1, 128};
+  scene::Geometry geometry;
+  tests::add_box(geometry, {-1, -1, -1},
+                 {1, 1, 1});  // the eye is in it, so that shadow begins there in every plane
+  scene::View view = view_of(builtin("sphere"), {8, 8});
+  view.camera.eye = {0, 0, 0};
+  view.camera.target = {0, 0, -1};
+  view.light.position = {0, 0, -3};
+  tests::look_into_frame(geometry, view, 8, [&](const frame::FrameInputs& inputs) {
+    ShadowVolume volume(context.limits(), {.resolution = n, .populate = Populate::screen_space});
+    EXPECT_EQ(volume.grid().windows().size(), 2u);
+    volume.find_ranges(inputs);
+    volume.fill(inputs);
+    const std::vector<std::uint32_t> bits = volume.grid().bits().read<std::uint32_t>();
+    for (std::size_t word = 0; word < bits.size(); word += 4)
+      ASSERT_EQ(bits[word] & 1u, 1u) << "plane " << word / 4;
+  });
+  EXPECT_NO_THROW(context.finish());
 }
 
 TEST(Grid, RefusesCountsThatCannotBe) {
@@ -113,7 +183,7 @@ class BitsOf {
         D_(glm::distance(view.lights[0].position, view.camera.eye)),
         exact_(scene.geometry, view.lights[0].position, view.camera.eye) {
     tests::look_into_frame(scene.geometry, view, shadow_map_size, [&](const frame::FrameInputs& inputs) {
-      ShadowVolume volume(inputs.context, {.resolution = n, .ranges = Ranges::alpha_phi});
+      ShadowVolume volume(inputs.context.limits(), {.resolution = n, .ranges = Ranges::alpha_phi});
       tests::build(volume, inputs, k_growth);
       bits_ = volume.grid().bits().read<std::uint32_t>();
       phi_max_ =

@@ -14,7 +14,7 @@ class OrScanOf : public testing::TestWithParam<Resolution> {};
 TEST_P(OrScanOf, RandomBitsEqualsTheScanOnTheCpu) {
   const Resolution n = GetParam();
   gpu::Context& context = tests::gpu_context();
-  const Grid grid(context, n);
+  const Grid grid(context.limits(), n);
   tests::Random random(1);
   std::vector<std::uint32_t> bits(static_cast<std::size_t>(grid.bits().bytes()) / 4);
   for (std::uint32_t& word : bits)
@@ -33,7 +33,7 @@ TEST_P(OrScanOf, RandomBitsEqualsTheScanOnTheCpu) {
   OrScan(n).run(grid);
   EXPECT_EQ(grid.bits().read<std::uint32_t>(), bits);
   grid.bits().write(unscanned.data(), grid.bits().bytes());
-  MipScan(context, grid).run(grid);
+  MipScan(context.limits(), grid).run(grid);
   EXPECT_EQ(grid.bits().read<std::uint32_t>(), bits);
   context.check();
 }

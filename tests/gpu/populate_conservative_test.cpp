@@ -72,7 +72,7 @@ class Grids {
 
  private:
   std::vector<std::uint32_t> bits_of(const frame::FrameInputs& inputs, Populate populate) {
-    ShadowVolume volume(inputs.context, {.resolution = k_resolution, .populate = populate});
+    ShadowVolume volume(inputs.context.limits(), {.resolution = k_resolution, .populate = populate});
     tests::build(volume, inputs, k_growth);
     space_ = volume.grid().block().read<shaders::EpipolarBlock>().at(0);
     phi_max_ = static_cast<double>(shaders::angle_from_order(volume.grid().phi_range().read<float>().at(0)));

@@ -47,12 +47,13 @@ Bits bits_of(const scene::Geometry& geometry, const scene::View& view) {
       volume.grid().phi_range().write(range.data(), volume.grid().phi_range().bytes());
       bits.cells = {shaders::angle_from_order(range[0]), k_growth, static_cast<float>(k_resolution.phi)};
     };
-    ShadowVolume solid(inputs.context, {.resolution = k_resolution, .populate = Populate::screen_space});
+    ShadowVolume solid(inputs.context.limits(),
+                       {.resolution = k_resolution, .populate = Populate::screen_space});
     bits.space = solid.find_ranges(inputs);
     set_growth(solid);
     solid.fill_unscanned(inputs);
     bits.solid = solid.grid().bits().read<std::uint32_t>();
-    ShadowVolume conservative(inputs.context,
+    ShadowVolume conservative(inputs.context.limits(),
                               {.resolution = k_resolution, .populate = Populate::conservative});
     conservative.find_ranges(inputs);
     set_growth(conservative);

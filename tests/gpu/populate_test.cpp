@@ -21,7 +21,7 @@ using tests::view_of;
 
 std::vector<std::uint32_t> bits_of(const frame::FrameInputs& inputs, const Resolution& resolution,
                                    Scan scan) {
-  ShadowVolume volume(inputs.context, {.resolution = resolution, .scan = scan});
+  ShadowVolume volume(inputs.context.limits(), {.resolution = resolution, .scan = scan});
   tests::build(volume, inputs, 2.5f);
   return volume.grid().bits().read<std::uint32_t>();
 }
@@ -83,7 +83,7 @@ TEST(Populate, BuildingTwiceGivesTheSameBits) {
   const scene::Scene& scene = builtin("window");
   look_into_frame(scene.geometry, view_of(scene, {64, 64}), 256, [&](const frame::FrameInputs& inputs) {
     for (Scan scan : {Scan::fused, Scan::column, Scan::multi_pass}) {
-      ShadowVolume volume(inputs.context, {.resolution = n, .scan = scan});
+      ShadowVolume volume(inputs.context.limits(), {.resolution = n, .scan = scan});
       tests::build(volume, inputs, 1.0f);
       const auto first = volume.grid().bits().read<std::uint32_t>();
       tests::build(volume, inputs, 1.0f);
@@ -115,7 +115,7 @@ double largest_phi(const scene::View& view, const std::vector<float>& distance) 
 
 void expect_largest_phi(const scene::Geometry& geometry, const scene::View& view) {
   look_into_frame(geometry, view, 16, [&](const frame::FrameInputs& inputs) {
-    const ShadowVolume volume(inputs.context, {.resolution = {8, 8, 128}});
+    const ShadowVolume volume(inputs.context.limits(), {.resolution = {8, 8, 128}});
     volume.find_ranges(inputs);
     const float order = volume.grid().phi_range().read<float>().at(0);
     // The order is a single-precision number up to 2.

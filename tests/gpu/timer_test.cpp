@@ -1,0 +1,68 @@
+#include "gpu/timer.h"
+
+#include <chrono>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "gpu/buffer.h"
+#include "support/gpu_context.h"
+
+namespace airlight::gpu {
+namespace {
+
+using tests::gpu_context;
+
+void sleep_ms(int ms) {
+  std::this_thread::sleep_for(std::chrono::milliseconds(ms));
+}
+
+class StageTimerWith : public testing::TestWithParam<StageClock> {};
+
+TEST_P(StageTimerWith, GivesAnInnerStageItsTimeAndTheOuterTheRest) {
+  StageTimer timer(gpu_context(), GetParam());
+  const auto start = std::chrono::steady_clock::now();
+  timer.time("outer", [&] {
+    sleep_ms(10);
+    timer.time("inner", [] { sleep_ms(40); });
+    sleep_ms(10);
+  });
+  timer.time("inner", [] { sleep_ms(20); });
+  const auto stages = timer.milliseconds();
+  const double total =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  ASSERT_EQ(stages.size(), 2u);
+  // A busy machine may stretch a sleep, but not shorten it; 1 ms is what two clocks may differ.
+  EXPECT_GE(stages.at("inner"), 59.0);
+  EXPECT_GE(stages.at("outer"), 19.0);
+  EXPECT_LE(stages.at("inner") + stages.at("outer"), total + 1.0) << "nothing is counted twice";
+}
+
+TEST_P(StageTimerWith, CountsWorkOfTheGpu) {
+  StageTimer timer(gpu_context(), GetParam());
+  const Buffer buffer(1 << 26);
+  timer.time("clear", [&] { buffer.clear(1); });
+  timer.time("nothing", [] {});
+  const auto stages = timer.milliseconds();
+  EXPECT_GT(stages.at("clear"), 0.0);
+  EXPECT_GE(stages.at("nothing"), 0.0);
+  gpu_context().check();
+}
+
+INSTANTIATE_TEST_SUITE_P(Clocks, StageTimerWith, testing::Values(StageClock::gpu, StageClock::wall));
+
+TEST(StageTimer, ThatIsOffRunsTheStages) {
+  StageTimer timer(nullptr);
+  int runs = 0;
+  timer.time("outer", [&] { timer.time("inner", [&] { ++runs; }); });
+  EXPECT_EQ(runs, 1);
+  EXPECT_TRUE(timer.milliseconds().empty());
+}
+
+TEST(StageTimer, AsksTheGpuOnlyWhereThereIsOne) {
+  EXPECT_EQ(stage_clock({.renderer = "", .version = "", .is_software = true}), StageClock::wall);
+  EXPECT_EQ(stage_clock({.renderer = "", .version = "", .is_software = false}), StageClock::gpu);
+}
+
+}  // namespace
+}  // namespace airlight::gpu
