@@ -5,6 +5,7 @@
 
 namespace airlight::shaders {
 #include "media/medium.glsl"
+#include "media/row_end.glsl"
 static_assert(sizeof(MediumBlock) == 48, "must match std140");
 }  // namespace airlight::shaders
 
