@@ -111,7 +111,6 @@ void Frame::load_light_texture(const std::shared_ptr<const scene::LightTexture>&
     for (const glm::vec3& texel : texture->texels()) texels.emplace_back(texel, 0.0f);
     light_texture_texels_ = gpu::Texture(gpu::Format::rgba32f, size);
     light_texture_texels_.write(texels.data());
-    light_texture_texels_.sample_bilinearly_around();
   } else {
     light_texture_texels_ = {};
   }

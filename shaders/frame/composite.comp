@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "frame/light_texture.glsl"
+#include "frame/light_colour.glsl"
 #include "frame/view.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -14,16 +14,6 @@ layout(binding = 11) uniform usamplerBuffer material_of_triangle;
 layout(binding = 14) uniform sampler2D light_texture;
 layout(binding = 0, rgba32f) uniform writeonly image2D radiance_image;
 layout(constant_id = 0) const uint k_light_textured = 0;
-
-const float k_pi = 3.14159265358979;
-
-// What the light radiates in the direction `d`, relative to its intensity.
-vec3 light_colour(vec3 d) {
-  if (k_light_textured == 0u) return vec3(1.0);
-  float equator = length(d.xz);
-  float longitude = equator > 0.0 ? atan(d.x, d.z) : 0.0;
-  return textureLod(light_texture, light_texture_place(longitude, atan(d.y, max(equator, 1e-30))), 0.0).rgb;
-}
 
 // Lambert surfaces lit by the point light, attenuated from the light to the surface and on to the eye, plus airlight.
 void main() {
@@ -39,8 +29,9 @@ void main() {
     float r = length(to_light);
     float cosine = dot(surface.xyz, to_light) / max(r, 1e-30);
     vec3 albedo = texelFetch(albedos, int(texelFetch(material_of_triangle, int(seen) - 1).r)).rgb;
-    radiance += visibility * max(cosine, 0.0) * albedo / k_pi * view.intensity / max(r * r, 1e-30) *
-                light_colour(-to_light) * exp(-view.sigma_t * (r + distance));
+    vec3 colour = k_light_textured != 0u ? light_colour(light_texture, -to_light) : vec3(1.0);
+    radiance += visibility * max(cosine, 0.0) * albedo / k_pi * view.intensity / max(r * r, 1e-20) * colour *
+                exp(-view.sigma_t * (r + distance));
   }
   imageStore(radiance_image, pixel, vec4(radiance, 1.0));
 }
