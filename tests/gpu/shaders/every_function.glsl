@@ -93,10 +93,10 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   put(outputs, at, theta_of(space, ray));
   put(outputs, at, phi_at(space, angle, t));  // 5
   EyeAngle given;
-  given.sine = sin(alpha);
-  given.cosine = cos(alpha);
+  given.sine = sine(alpha);
+  given.cosine = cosine(alpha);
   put(outputs, at, distance_from_eye(space, given, phi));
-  put(outputs, at, alpha_at(space, sin(phi), cos(phi), t));
+  put(outputs, at, alpha_at(space, sine(phi), cosine(phi), t));
   put(outputs, at, light_ray(space, theta, phi));
   put(outputs, at, view_ray_of(space, alpha, theta));
   put(outputs, at, path_length(space, complement, phi));  // 14
