@@ -10,8 +10,8 @@
 // over i from its high digits to its low ones, `below` collects the rays whose number is smaller already, `equal` those
 // that agree so far. The grid must be clear: texels before the first shadow are not written.
 layout(local_size_x = 4, local_size_y = 4) in;
-layout(binding = 14) uniform usamplerBuffer first_shadowed;  // four light rays a texel
-layout(std430, binding = 5) writeonly buffer Grid { uvec4 grid[]; };
+layout(binding = k_first_shadowed_unit) uniform usamplerBuffer first_shadowed;  // four light rays a texel
+layout(std430, binding = k_grid_storage) writeonly buffer Grid { uvec4 grid[]; };
 
 layout(constant_id = 3) const uint k_digits = 10;  // of the numbers 0 … N_α
 

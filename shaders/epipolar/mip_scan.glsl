@@ -7,10 +7,10 @@
 
 layout(local_size_x = 32, local_size_y = 2) in;
 layout(constant_id = 3) const uint k_fine_is_grid = 0;
-layout(binding = 12) uniform usamplerBuffer grid_texels;
-layout(binding = 15) uniform usamplerBuffer chain_texels;
-layout(std430, binding = 5) writeonly buffer Grid { uvec4 grid[]; };
-layout(std430, binding = 8) writeonly buffer Chain { uvec4 chain[]; };
+layout(binding = k_grid_unit) uniform usamplerBuffer grid_texels;
+layout(binding = k_scratch_unit) uniform usamplerBuffer chain_texels;
+layout(std430, binding = k_grid_storage) writeonly buffer Grid { uvec4 grid[]; };
+layout(std430, binding = k_scratch_storage) writeonly buffer Chain { uvec4 chain[]; };
 
 uint chain_index(uint plane, uint entry, uint texel) {
   return (plane * chain_size + entry) * k_texels_per_ray + texel;

@@ -6,8 +6,8 @@
 
 // V(α_i) |= V(α_{i−1}) along α, for all (θ, φ) (Eq. 3): one invocation walks 128 light rays of one plane outwards.
 layout(local_size_x = 4, local_size_y = 4) in;  // neighbours in x share cache lines
-layout(binding = 12) uniform usamplerBuffer grid_texels;  // the same bits: a texel is read only by who writes it later
-layout(std430, binding = 5) writeonly buffer Grid { uvec4 grid[]; };
+layout(binding = k_grid_unit) uniform usamplerBuffer grid_texels;  // the same bits: a texel is read only by who writes it later
+layout(std430, binding = k_grid_storage) writeonly buffer Grid { uvec4 grid[]; };
 
 void main() {
   uint texel = gl_GlobalInvocationID.x;

@@ -5,8 +5,7 @@
 
 // The table of shaders/epipolar/planes.glsl.
 layout(local_size_x = 64) in;
-layout(std140, binding = 1) uniform EpipolarUniform { EpipolarBlock space; };
-layout(std430, binding = 9) writeonly buffer Planes { vec4 planes[]; };
+layout(std430, binding = k_planes_storage) writeonly buffer Planes { vec4 planes[]; };
 
 void main() {
   uint j = gl_GlobalInvocationID.x;

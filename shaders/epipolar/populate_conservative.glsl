@@ -1,5 +1,5 @@
 // What the two passes of the conservative voxelization share. GLSL only.
-#include "frame/view.glsl"
+#include "frame/camera.glsl"
 #include "epipolar/conservative.glsl"
 #include "epipolar/resolution.glsl"
 #include "epipolar/phi_range.glsl"
@@ -8,13 +8,13 @@
 #define TRIANGLE VoxelTriangle
 #include "epipolar/triangle_queue.glsl"
 
-layout(std430, binding = 7) buffer FirstShadowed { uint first_shadowed[]; };
+layout(std430, binding = k_first_shadowed_storage) buffer FirstShadowed { uint first_shadowed[]; };
 
 VoxelTriangle fetch_triangle(uint index) {
   uvec3 corners = texelFetch(triangles, int(index)).xyz;
-  return voxel_triangle(space, eye_relative(view, texelFetch(positions, int(corners.x)).xyz),
-                        eye_relative(view, texelFetch(positions, int(corners.y)).xyz),
-                        eye_relative(view, texelFetch(positions, int(corners.z)).xyz), k_theta_count);
+  return voxel_triangle(space, eye_relative(camera, texelFetch(positions, int(corners.x)).xyz),
+                        eye_relative(camera, texelFetch(positions, int(corners.y)).xyz),
+                        eye_relative(camera, texelFetch(positions, int(corners.z)).xyz), k_theta_count);
 }
 
 // Notes the part of a triangle in the cell of the `index`th of its planes.

@@ -7,7 +7,7 @@
 // A crossing must be found by exactly one of the triangles that meet at an edge. Which side of an edge a ray passes is
 // therefore decided from the edge's two corners alone, taken in an order that does not depend on the triangle, and by sums and
 // products alone that are PRECISE: both passes, two programs, must come to the same bits.
-#include "frame/view.glsl"
+#include "frame/camera.glsl"
 #include "epipolar/conservative.glsl"
 #include "epipolar/resolution.glsl"
 #include "epipolar/window.glsl"
@@ -16,10 +16,10 @@
 #define TRIANGLE ScreenTriangle
 #include "epipolar/triangle_queue.glsl"
 
-layout(std430, binding = 9) buffer Flips { uint flips[]; };  // as the grid's window, by words
+layout(std430, binding = k_scratch_storage) buffer Flips { uint flips[]; };  // as the grid's window, by words
 
 vec3 corner(uint index) {
-  vec3 p = eye_relative(view, texelFetch(positions, int(index)).xyz);
+  vec3 p = eye_relative(camera, texelFetch(positions, int(index)).xyz);
   return vec3(ordered_dot(p, space.u), ordered_dot(p, space.f), ordered_dot(p, space.axis));
 }
 

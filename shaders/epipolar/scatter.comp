@@ -7,8 +7,8 @@
 // Sets the bit of the first shadowed cell of every light ray: V(α_d, θ_j, φ_k) = 1 (section 4.1.3). An invocation owns 32
 // neighbouring φ of one plane, and with them the words that it writes, so no atomics are needed. The grid must be clear.
 layout(local_size_x = 16, local_size_y = 4) in;
-layout(binding = 14) uniform usamplerBuffer first_shadowed;  // four light rays a texel
-layout(std430, binding = 5) buffer Grid { uint grid[]; };
+layout(binding = k_first_shadowed_unit) uniform usamplerBuffer first_shadowed;  // four light rays a texel
+layout(std430, binding = k_grid_storage) buffer Grid { uint grid[]; };
 
 void main() {
   uint word = gl_GlobalInvocationID.x;

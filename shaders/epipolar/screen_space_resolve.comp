@@ -6,9 +6,9 @@
 // Inside is where an odd number of crossings lies beyond: bit k is the XOR of the flips of bits k and higher. What is
 // inside is added to the grid.
 layout(local_size_x = 64) in;
-layout(binding = 12) uniform usamplerBuffer grid_texels;
-layout(binding = 15) uniform usamplerBuffer flip_texels;
-layout(std430, binding = 5) writeonly buffer Grid { uvec4 grid[]; };
+layout(binding = k_grid_unit) uniform usamplerBuffer grid_texels;
+layout(binding = k_scratch_unit) uniform usamplerBuffer flip_texels;
+layout(std430, binding = k_grid_storage) writeonly buffer Grid { uvec4 grid[]; };
 
 // Of each bit and all higher ones of the word; `beyond` is all ones where the words beyond hold an odd number, and becomes that
 // for the next word.

@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "frame/view.glsl"
+#include "frame/camera.glsl"
 #include "epipolar/grid.glsl"
 #include "epipolar/resolution.glsl"
 #include "epipolar/phi_range.glsl"
@@ -8,17 +8,15 @@
 // How many of the samples along each pixel's view ray are in shadow, of all N_φ (Fig. 7, bottom): set bits of its row whose
 // centre lies before the end of the ray.
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(std140, binding = 0) uniform ViewUniform { ViewBlock view; };
-layout(std140, binding = 1) uniform EpipolarUniform { EpipolarBlock space; };
-layout(binding = 0) uniform sampler2D surface_image;
-layout(binding = 12) uniform usamplerBuffer grid_texels;
-layout(binding = 0, r32f) uniform writeonly image2D fraction_image;
+layout(binding = k_surface_unit) uniform sampler2D surface_image;
+layout(binding = k_grid_unit) uniform usamplerBuffer grid_texels;
+layout(binding = k_output_image, r32f) uniform writeonly image2D fraction_image;
 
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(vec2(pixel), vec2(view.image_width, view.image_height)))) return;
-  vec3 direction = view_ray(view, vec2(pixel) + 0.5);
-  EyeAngle angle = eye_angle(space, direction, quarter_pixel(view));
+  if (any(greaterThanEqual(vec2(pixel), vec2(camera.image_width, camera.image_height)))) return;
+  vec3 direction = view_ray(camera, vec2(pixel) + 0.5);
+  EyeAngle angle = eye_angle(space, direction, quarter_pixel(camera));
   float t = texelFetch(surface_image, pixel, 0).w;
   float phi_end = t > 0.0 ? phi_at(space, angle, t) : alpha_complement(angle);
   int end = int(clamp(ceil(cell_of_phi(phi_cells(), phi_end) - 0.5), 0.0, float(k_phi_count)));

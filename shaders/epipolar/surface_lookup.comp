@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "frame/view.glsl"
+#include "frame/camera.glsl"
 #include "frame/shadow_cube.glsl"
 #include "epipolar/grid.glsl"
 #include "epipolar/resolution.glsl"
@@ -10,11 +10,9 @@
 // Is a pixel's surface lit? One bit of the shadow volume tells: that of the last voxel in front of the surface, on the light ray
 // that is nearest to the surface's point.
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(std140, binding = 0) uniform ViewUniform { ViewBlock view; };
-layout(std140, binding = 1) uniform EpipolarUniform { EpipolarBlock space; };
-layout(binding = 0) uniform sampler2D surface_image;
-layout(binding = 12) uniform usamplerBuffer grid_texels;
-layout(binding = 0, r32f) uniform writeonly image2D visibility_image;
+layout(binding = k_surface_unit) uniform sampler2D surface_image;
+layout(binding = k_grid_unit) uniform usamplerBuffer grid_texels;
+layout(binding = k_output_image, r32f) uniform writeonly image2D visibility_image;
 
 // Whether a voxel is dark as soon as a triangle touches it, or only where its centre is in shadow.
 layout(constant_id = 3) const bool k_whole_voxels = false;
@@ -29,10 +27,10 @@ const float k_length_slack = 1e-4;
 
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(vec2(pixel), vec2(view.image_width, view.image_height)))) return;
+  if (any(greaterThanEqual(vec2(pixel), vec2(camera.image_width, camera.image_height)))) return;
   vec4 surface = texelFetch(surface_image, pixel, 0);
-  vec3 direction = view_ray(view, vec2(pixel) + 0.5);
-  EyeAngle angle = eye_angle(space, direction, quarter_pixel(view));
+  vec3 direction = view_ray(camera, vec2(pixel) + 0.5);
+  EyeAngle angle = eye_angle(space, direction, quarter_pixel(camera));
 
   // The light ray whose cell holds the surface's point.
   PhiCells cells = phi_cells();
@@ -47,12 +45,12 @@ void main() {
 
   // Where it, or a ray that the grid may have taken for it, first meets the surface's plane: there the surface's own shadow begins.
   // Seen from eye and light on its lit side, a plane has the smaller α the larger φ is.
-  float plane = surface.w * dot(surface.xyz, direction) - dot(surface.xyz, view.light);  // its distance from the light, < 0
+  float plane = surface.w * dot(surface.xyz, direction) - dot(surface.xyz, light.from_eye);  // its distance from the light, < 0
   float slope = dot(surface.xyz, ray);
   CubePoint towards_cube = cube_point(ray);
   float along_face = surface[towards_cube.face >> 1];
   float spread = k_whole_voxels ? 0.5 * space.theta_step / (1.0 - space.theta_growth) * sin_phi * abs(dot(surface.xyz, cross(space.axis, outward)))
-                                : k_texel_reach * 2.0 / view.shadow_map_size * towards_cube.depth *
+                                : k_texel_reach * 2.0 / light.shadow_map_size * towards_cube.depth *
                                       sqrt(max(1.0 - along_face * along_face, 0.0));
   float near = plane + (k_whole_voxels ? k_length_slack * max(surface.w, space.distance) : 0.0);
   float r = min(near, 0.0) / min(slope - spread, -1e-20);

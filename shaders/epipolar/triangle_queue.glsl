@@ -1,13 +1,11 @@
-// How the triangles of a scene are shared out, some to one invocation, some to many. GLSL only; needs view.glsl and
+// How the triangles of a scene are shared out, some to one invocation, some to many. GLSL only; needs camera.glsl and
 // conservative.glsl.
-layout(std140, binding = 0) uniform ViewUniform { ViewBlock view; };
-layout(std140, binding = 1) uniform EpipolarUniform { EpipolarBlock space; };
-layout(binding = 8) uniform samplerBuffer positions;   // vec3, world space
-layout(binding = 9) uniform usamplerBuffer triangles;  // uvec3, indices of positions
+layout(binding = k_positions_unit) uniform samplerBuffer positions;   // vec3, world space
+layout(binding = k_triangles_unit) uniform usamplerBuffer triangles;  // uvec3, indices of positions
 
 // Triangles that touch many planes, left by the first pass for the second: `many`, from the front, some hundreds of planes at
 // most, `most`, from the back, more.
-layout(std430, binding = 8) buffer Queue {
+layout(std430, binding = k_queue_storage) buffer Queue {
   uvec3 many_groups;  // of an indirect dispatch: k_row × rows × 1 groups, one a triangle
   uint many_count;
   uvec3 most_groups;

@@ -1,37 +1,36 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "frame/light_colour.glsl"
-#include "frame/view.glsl"
+#include "frame/camera.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(std140, binding = 0) uniform ViewUniform { ViewBlock view; };
-layout(binding = 0) uniform usampler2D triangle_plus_one;
-layout(binding = 1) uniform sampler2D surface_image;
-layout(binding = 2) uniform sampler2D visibility_image;
-layout(binding = 3) uniform sampler2D airlight_image;
-layout(binding = 10) uniform samplerBuffer albedos;
-layout(binding = 11) uniform usamplerBuffer material_of_triangle;
-layout(binding = 14) uniform sampler2D light_texture;
-layout(binding = 0, rgba32f) uniform writeonly image2D radiance_image;
+layout(binding = k_triangle_unit) uniform usampler2D triangle_plus_one;
+layout(binding = k_surface_unit) uniform sampler2D surface_image;
+layout(binding = k_visibility_unit) uniform sampler2D visibility_image;
+layout(binding = k_airlight_unit) uniform sampler2D airlight_image;
+layout(binding = k_albedos_unit) uniform samplerBuffer albedos;
+layout(binding = k_materials_unit) uniform usamplerBuffer material_of_triangle;
+layout(binding = k_light_texture_unit) uniform sampler2D light_texture;
+layout(binding = k_output_image, rgba32f) uniform writeonly image2D radiance_image;
 layout(constant_id = 0) const uint k_light_textured = 0;
 
 // Lambert surfaces lit by the point light, attenuated from the light to the surface and on to the eye, plus airlight.
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(vec2(pixel), vec2(view.image_width, view.image_height)))) return;
+  if (any(greaterThanEqual(vec2(pixel), vec2(camera.image_width, camera.image_height)))) return;
   vec3 radiance = texelFetch(airlight_image, pixel, 0).rgb;
   uint seen = texelFetch(triangle_plus_one, pixel, 0).r;
   float visibility = texelFetch(visibility_image, pixel, 0).r;
   if (seen != 0u && visibility > 0.0) {
     vec4 surface = texelFetch(surface_image, pixel, 0);
     float distance = surface.w;
-    vec3 to_light = view.light - distance * view_ray(view, vec2(pixel) + 0.5);
+    vec3 to_light = light.from_eye - distance * view_ray(camera, vec2(pixel) + 0.5);
     float r = length(to_light);
     float cosine = dot(surface.xyz, to_light) / max(r, 1e-30);
     vec3 albedo = texelFetch(albedos, int(texelFetch(material_of_triangle, int(seen) - 1).r)).rgb;
     vec3 colour = k_light_textured != 0u ? light_colour(light_texture, -to_light) : vec3(1.0);
-    radiance += visibility * max(cosine, 0.0) * albedo / k_pi * view.intensity / max(r * r, 1e-20) * colour *
-                exp(-view.sigma_t * (r + distance));
+    radiance += visibility * max(cosine, 0.0) * albedo / k_pi * light.intensity / max(r * r, 1e-20) * colour *
+                exp(-medium.sigma_t * (r + distance));
   }
   imageStore(radiance_image, pixel, vec4(radiance, 1.0));
 }

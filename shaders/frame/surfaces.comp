@@ -1,27 +1,26 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "frame/view.glsl"
+#include "frame/camera.glsl"
 
 // What each view ray hits, from the triangle seen there: its normal, turned towards the eye, and the distance to its plane.
 // Interpolated depth would lose digits on large triangles that reach behind the eye.
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(std140, binding = 0) uniform ViewUniform { ViewBlock view; };
-layout(binding = 0) uniform usampler2D triangle_plus_one;
-layout(binding = 8) uniform samplerBuffer positions;   // vec3, world space
-layout(binding = 9) uniform usamplerBuffer triangles;  // uvec3, indices of positions
-layout(binding = 0, rgba32f) uniform writeonly image2D surface_image;
+layout(binding = k_triangle_unit) uniform usampler2D triangle_plus_one;
+layout(binding = k_positions_unit) uniform samplerBuffer positions;   // vec3, world space
+layout(binding = k_triangles_unit) uniform usamplerBuffer triangles;  // uvec3, indices of positions
+layout(binding = k_output_image, rgba32f) uniform writeonly image2D surface_image;
 
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(vec2(pixel), vec2(view.image_width, view.image_height)))) return;
+  if (any(greaterThanEqual(vec2(pixel), vec2(camera.image_width, camera.image_height)))) return;
   uint seen = texelFetch(triangle_plus_one, pixel, 0).r;
   vec4 surface = vec4(0.0);
   if (seen != 0u) {
     uvec3 corners = texelFetch(triangles, int(seen) - 1).xyz;
-    vec3 a = eye_relative(view, texelFetch(positions, int(corners.x)).xyz);
-    vec3 b = eye_relative(view, texelFetch(positions, int(corners.y)).xyz);
-    vec3 c = eye_relative(view, texelFetch(positions, int(corners.z)).xyz);
-    vec3 ray = view_ray(view, vec2(pixel) + 0.5);
+    vec3 a = eye_relative(camera, texelFetch(positions, int(corners.x)).xyz);
+    vec3 b = eye_relative(camera, texelFetch(positions, int(corners.y)).xyz);
+    vec3 c = eye_relative(camera, texelFetch(positions, int(corners.z)).xyz);
+    vec3 ray = view_ray(camera, vec2(pixel) + 0.5);
     // Three corners in line may be seen once they are rasterised.
     vec3 normal = unit_or(cross(b - a, c - a), -ray);
     surface.xyz = dot(normal, ray) > 0.0 ? -normal : normal;

@@ -64,8 +64,8 @@ FUNCTION vec3 integrate_cell(IN(EpipolarBlock) space, IN(MediumBlock) medium, ui
 }
 
 // What turns the integral over φ into radiance: σ_s I / (D sin α).
-FUNCTION vec3 airlight_scale(IN(EpipolarBlock) space, IN(MediumBlock) medium, float sin_alpha) {
-  return medium.sigma_s * medium.intensity / (space.distance * sin_alpha);
+FUNCTION vec3 airlight_scale(IN(EpipolarBlock) space, IN(LightBlock) light, IN(MediumBlock) medium, float sin_alpha) {
+  return medium.sigma_s * light.intensity / (space.distance * sin_alpha);
 }
 
 #endif

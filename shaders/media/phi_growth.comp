@@ -11,9 +11,7 @@
 // the frame's range of α.
 layout(local_size_x = 1) in;
 layout(constant_id = 3) const uint k_phase = 0;
-layout(std140, binding = 1) uniform EpipolarUniform { EpipolarBlock space; };
-layout(std140, binding = 2) uniform MediumUniform { MediumBlock medium; };
-layout(std430, binding = 4) buffer PhiRange {
+layout(std430, binding = k_phi_range_storage) buffer PhiRange {
   uint largest_order;
   float phi_growth;
 };

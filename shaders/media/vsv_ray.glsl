@@ -1,5 +1,5 @@
 // What the VSV integrators share: a pixel's view ray in the grid. GLSL only.
-#include "frame/view.glsl"
+#include "frame/camera.glsl"
 #include "epipolar/grid.glsl"
 #include "epipolar/resolution.glsl"
 #include "epipolar/phi_range.glsl"
@@ -8,12 +8,9 @@
 
 layout(constant_id = 3) const uint k_phase = 0;
 
-layout(std140, binding = 0) uniform ViewUniform { ViewBlock view; };
-layout(std140, binding = 1) uniform EpipolarUniform { EpipolarBlock space; };
-layout(std140, binding = 2) uniform MediumUniform { MediumBlock medium; };
-layout(binding = 0) uniform sampler2D surface_image;
-layout(binding = 12) uniform usamplerBuffer grid_texels;
-layout(binding = 0, rgba32f) uniform writeonly image2D airlight_image;
+layout(binding = k_surface_unit) uniform sampler2D surface_image;
+layout(binding = k_grid_unit) uniform usamplerBuffer grid_texels;
+layout(binding = k_output_image, rgba32f) uniform writeonly image2D airlight_image;
 
 // How far before the plane, in cells of φ, a bit has to lie to be trusted: the shadow map places the surface by its texels.
 const float k_plane_slack = 0.25;
@@ -33,8 +30,8 @@ struct VsvRay {
 
 VsvRay vsv_ray(ivec2 pixel) {
   VsvRay ray;
-  vec3 direction = view_ray(view, vec2(pixel) + 0.5);
-  ray.angle = eye_angle(space, direction, quarter_pixel(view));
+  vec3 direction = view_ray(camera, vec2(pixel) + 0.5);
+  ray.angle = eye_angle(space, direction, quarter_pixel(camera));
   ray.alpha = alpha_of(ray.angle);
   vec4 surface = texelFetch(surface_image, pixel, 0);
   ray.is_open = surface.w == 0.0;
@@ -58,7 +55,7 @@ VsvRay vsv_ray(ivec2 pixel) {
     float row_end = cell_of_phi(ray.cells, max(ray.phi_end + d_phi, 0.0));
     ray.last_valid = int(clamp(ceil(row_end - 0.5 - k_plane_slack) - 1.0, -1.0, float(ray.last_cell)));
     // Lit where the surface faces the light.
-    ray.unknown = dot(surface.xyz, view.light) > surface.w * dot(surface.xyz, direction) ? 0u : 0xffffffffu;
+    ray.unknown = dot(surface.xyz, light.from_eye) > surface.w * dot(surface.xyz, direction) ? 0u : 0xffffffffu;
   }
   return ray;
 }

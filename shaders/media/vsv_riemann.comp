@@ -7,7 +7,7 @@
 // cell. A cell counts whole when its centre lies before the end of the ray.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 4) const uint k_light_textured = 0;
-layout(binding = 14) uniform sampler2D light_texture;
+layout(binding = k_light_texture_unit) uniform sampler2D light_texture;
 
 // What the light radiates along the light ray at φ, relative to its intensity. `outward` is the direction in the plane of the
 // view ray at right angles to the axis.
@@ -18,10 +18,10 @@ vec3 colour_at(vec3 outward, float phi) {
 
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(vec2(pixel), vec2(view.image_width, view.image_height)))) return;
+  if (any(greaterThanEqual(vec2(pixel), vec2(camera.image_width, camera.image_height)))) return;
   VsvRay ray = vsv_ray(pixel);
   float complement = alpha_complement(ray.angle);
-  vec3 direction = view_ray(view, vec2(pixel) + 0.5);
+  vec3 direction = view_ray(camera, vec2(pixel) + 0.5);
   vec3 outward = dot(direction, space.u) * space.u + dot(direction, space.f) * space.f;
   outward = unit_or(outward, space.u);
   vec3 sum = vec3(0.0);
@@ -42,6 +42,6 @@ void main() {
       }
     }
   }
-  vec3 radiance = airlight_scale(space, medium, ray.angle.sine) * sum;
+  vec3 radiance = airlight_scale(space, light, medium, ray.angle.sine) * sum;
   imageStore(airlight_image, pixel, vec4(radiance, 1.0));
 }

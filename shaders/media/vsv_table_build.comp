@@ -9,9 +9,7 @@
 // One invocation integrates one row outwards.
 layout(local_size_x = 8) in;
 layout(constant_id = 3) const uint k_phase = 0;
-layout(std140, binding = 1) uniform EpipolarUniform { EpipolarBlock space; };
-layout(std140, binding = 2) uniform MediumUniform { MediumBlock medium; };
-layout(std430, binding = 6) buffer Table { float table[]; };
+layout(std430, binding = k_table_storage) buffer Table { float table[]; };
 
 void main() {
   uint row = gl_GlobalInvocationID.x;

@@ -1,13 +1,12 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "frame/view.glsl"
+#include "frame/camera.glsl"
 #include "frame/shadow_cube.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(std140, binding = 0) uniform ViewUniform { ViewBlock view; };
-layout(binding = 0) uniform sampler2D surface_image;
-layout(binding = 1) uniform sampler2DArray shadow_map;
-layout(binding = 0, r32f) uniform writeonly image2D visibility_image;
+layout(binding = k_surface_unit) uniform sampler2D surface_image;
+layout(binding = k_shadow_map_unit) uniform sampler2DArray shadow_map;
+layout(binding = k_output_image, r32f) uniform writeonly image2D visibility_image;
 
 // Relative slack of the depth test on a plane: what single precision leaves.
 const float k_slack = 1e-4;
@@ -23,15 +22,15 @@ const float k_bend = 0.25;
 // the pixel does, so that slope causes no acne and needs no offset.
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(vec2(pixel), vec2(view.image_width, view.image_height)))) return;
+  if (any(greaterThanEqual(vec2(pixel), vec2(camera.image_width, camera.image_height)))) return;
   vec4 surface = texelFetch(surface_image, pixel, 0);
   float visibility = 0.0;
   if (surface.w > 0.0) {
-    vec3 from_light = surface.w * view_ray(view, vec2(pixel) + 0.5) - view.light;
+    vec3 from_light = surface.w * view_ray(camera, vec2(pixel) + 0.5) - light.from_eye;
     CubePoint point = cube_point(from_light);
-    ivec2 texel = cube_texel(point.uv, view.shadow_map_size);
+    ivec2 texel = cube_texel(point.uv, light.shadow_map_size);
     float depth = texelFetch(shadow_map, ivec3(texel, point.face), 0).r;
-    vec3 centre = cube_direction(point.face, cube_texel_centre(texel, view.shadow_map_size));
+    vec3 centre = cube_direction(point.face, cube_texel_centre(texel, light.shadow_map_size));
     float plane = dot(surface.xyz, from_light);
     float slope = dot(surface.xyz, centre);
     bool faces_light = plane < 0.0;
@@ -43,8 +42,8 @@ void main() {
     float cosine = abs(dot(surface.xyz, normalize(centre)));
     float rise = sqrt(max(1.0 - cosine * cosine, 0.0)) / max(cosine, 0.05);  // of the plane, by depth and texel width
     // A surface that turns its back is dark in truth, so only light can be wrong: the far side of a thin body needs every digit.
-    float slack = k_slack + (faces_light ? k_bend * rise * 2.0 / view.shadow_map_size : 0.0);
-    visibility = depth == 0.0 || receiver * depth <= view.light_near * (1.0 + slack) ? 1.0 : 0.0;
+    float slack = k_slack + (faces_light ? k_bend * rise * 2.0 / light.shadow_map_size : 0.0);
+    visibility = depth == 0.0 || receiver * depth <= light.near * (1.0 + slack) ? 1.0 : 0.0;
   }
   imageStore(visibility_image, pixel, vec4(visibility));
 }

@@ -3,7 +3,7 @@
 #define AIRLIGHT_EVERY_FUNCTION_GLSL
 #include "frame/light_texture.glsl"
 #include "frame/shadow_cube.glsl"
-#include "frame/view.glsl"
+#include "frame/camera.glsl"
 #include "epipolar/conservative.glsl"
 #include "media/medium.glsl"
 #include "media/row_end.glsl"
@@ -80,26 +80,26 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   medium.g = g;
   medium.sigma_t = vec3(0.15f, 0.2f, 0.4f);
   medium.table_row_step = 0.0f;
-  medium.intensity = vec3(5.0f, 6.0f, 7.0f);
+  light.intensity = vec3(5.0f, 6.0f, 7.0f);
   medium.rayleigh_weight = 0.3f;
 
   ViewBlock view;
-  view.eye_high = 100.0f * ray;
-  view.half_width = 0.7f;
-  view.eye_low = 1e-6f * ray;
-  view.half_height = 0.4f;
-  view.right = space.u;
-  view.image_width = 320.0f;
-  view.up = space.f;
-  view.image_height = 200.0f;
-  view.forward = l;
-  view.eye_near = 0.1f;
-  view.light = 2.0f * l;
-  view.light_near = 0.1f;
-  view.intensity = vec3(1.0f);
-  view.shadow_map_size = 512.0f;
-  view.sigma_t = vec3(0.1f);
-  view.padding = 0.0f;
+  camera.eye_high = 100.0f * ray;
+  camera.half_width = 0.7f;
+  camera.eye_low = 1e-6f * ray;
+  camera.half_height = 0.4f;
+  camera.right = space.u;
+  camera.image_width = 320.0f;
+  camera.up = space.f;
+  camera.image_height = 200.0f;
+  camera.forward = l;
+  camera.eye_near = 0.1f;
+  light.from_eye = 2.0f * l;
+  light.near = 0.1f;
+  light.intensity = vec3(1.0f);
+  light.shadow_map_size = 512.0f;
+  medium.sigma_t = vec3(0.1f);
+  camera.padding = 0.0f;
 
   uint at = 0u;
   EyeAngle angle = eye_angle(space, ray, 1e-4f);
@@ -130,7 +130,7 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   put(outputs, at, phase_function(k_hoffman_preetham, medium, ray.x));
   put(outputs, at, airlight_integrand(space, medium, k_henyey_greenstein, complement, phi));  // 26
   put(outputs, at, integrate_cell(space, medium, k_rayleigh, complement, 0.9f * phi, phi));
-  put(outputs, at, airlight_scale(space, medium, given.sine));
+  put(outputs, at, airlight_scale(space, light, medium, given.sine));
   CubePoint point = cube_point(any_vector);
   put(outputs, at, float(point.face));  // 35
   put(outputs, at, point.uv.x);
@@ -143,10 +143,10 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   vec2 centre = cube_texel_centre(texel, 512.0f);
   put(outputs, at, centre.x);
   put(outputs, at, centre.y);
-  put(outputs, at, view_ray(view, vec2(100.0f * alpha, 60.0f * phi)));  // 46
-  put(outputs, at, quarter_pixel(view));
+  put(outputs, at, view_ray(camera, vec2(100.0f * alpha, 60.0f * phi)));  // 46
+  put(outputs, at, quarter_pixel(camera));
   PRECISE vec3 world = 100.0f * ray + 0.01f * any_vector;
-  put(outputs, at, eye_relative(view, world));
+  put(outputs, at, eye_relative(camera, world));
   put(outputs, at, ray_triangle_distance(l, t * l + space.u, t * l - 2.0f * space.f, 2.0f * t * l - space.u + space.f));  // 54
   PhiCells cells;
   cells.phi_max = complement;

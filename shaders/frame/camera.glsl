@@ -25,22 +25,22 @@ struct ViewBlock {
 };
 
 // Position relative to the eye of a world-space position. Exact where the two are close (Sterbenz), if subtracted in this order.
-FUNCTION vec3 eye_relative(IN(ViewBlock) view, vec3 world) {
-  PRECISE vec3 relative = (world - view.eye_high) - view.eye_low;
+FUNCTION vec3 eye_relative(IN(CameraBlock) camera, vec3 world) {
+  PRECISE vec3 relative = (world - camera.eye_high) - camera.eye_low;
   return relative;
 }
 
 // Unit direction of the view ray through a point of the image, in pixels from its top left corner; pixel centres lie
 // at half-integers.
-FUNCTION vec3 view_ray(IN(ViewBlock) view, vec2 pixel) {
-  float x = (2.0f * pixel.x / view.image_width - 1.0f) * view.half_width;
-  float y = (1.0f - 2.0f * pixel.y / view.image_height) * view.half_height;
-  return normalize(view.forward + x * view.right + y * view.up);
+FUNCTION vec3 view_ray(IN(CameraBlock) camera, vec2 pixel) {
+  float x = (2.0f * pixel.x / camera.image_width - 1.0f) * camera.half_width;
+  float y = (1.0f - 2.0f * pixel.y / camera.image_height) * camera.half_height;
+  return normalize(camera.forward + x * camera.right + y * camera.up);
 }
 
 // Tangent of the angle that a quarter of a pixel spans at the image's centre: no view ray is taken to be nearer to the light's
 // direction than this, where airlight grows as 1/sin(α).
-FUNCTION float quarter_pixel(IN(ViewBlock) view) { return 0.5f * view.half_height / view.image_height; }
+FUNCTION float quarter_pixel(IN(CameraBlock) camera) { return 0.5f * camera.half_height / camera.image_height; }
 
 // Distance along the unit ray `ray` from the eye to the plane of the triangle (a, b, c), positions relative to the
 // eye. Kept between the triangle's extremes along the ray, which matters for a triangle seen edge-on, whose plane
