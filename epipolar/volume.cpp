@@ -179,7 +179,7 @@ void ShadowVolume::fill_unscanned(const frame::FrameInputs& inputs, bool with_bi
   if (populate_conservative_) populate_conservative_->run(grid_, inputs.scene);
   if (with_bits && !populate_screen_space_) {
     grid_.bits().clear();
-    dispatch_planes(scatter_, grid_, options_.resolution.phi / 32, {16, 4});
+    dispatch_planes(scatter_, grid_, options_.resolution.phi / 32);
   }
 }
 

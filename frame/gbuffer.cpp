@@ -1,6 +1,7 @@
 #include "frame/gbuffer.h"
 
 #include "frame/blocks.h"
+#include "frame/reversed_depth.h"
 
 #include "spirv/frame/gbuffer_frag.h"
 #include "spirv/frame/gbuffer_vert.h"

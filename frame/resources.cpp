@@ -37,7 +37,6 @@ void Resources::begin_light(const scene::Light& light) {
   for (const glm::vec3& texel : light_texture_->texels()) texels.emplace_back(texel, 0.0f);
   light_texture_texels_ = gpu::Texture(gpu::Format::rgba32f, size);
   light_texture_texels_.write(texels.data());
-  light_texture_texels_.sample_linearly(gpu::Wrap::repeat);
 }
 
 const ShadowMap& Resources::shadow_map(gpu::StageTimer& timer) {

@@ -5,6 +5,7 @@
 
 namespace airlight::shaders {
 #include "media/medium.glsl"
+#include "media/row_end.glsl"
 }  // namespace airlight::shaders
 
 namespace airlight::media {

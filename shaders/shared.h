@@ -12,17 +12,13 @@
 #define INOUT(type) type&
 #define CONST inline constexpr
 #define FUNCTION inline
+#define PRECISE
 
 namespace airlight::shaders {
 
 using uint = std::uint32_t;
-using glm::abs, glm::ceil, glm::clamp, glm::cos, glm::cross, glm::dot, glm::exp, glm::floor, glm::length,
-    glm::max, glm::min, glm::mix, glm::normalize, glm::pow, glm::sin, glm::sqrt, glm::tan;
+using glm::abs, glm::ceil, glm::clamp, glm::cross, glm::dot, glm::exp, glm::floor, glm::length, glm::max, glm::min,
+    glm::mix, glm::normalize, glm::sqrt;
 using glm::ivec2, glm::ivec3, glm::uvec2, glm::uvec3, glm::uvec4, glm::vec2, glm::vec3, glm::vec4;
-
-/// GLSL's two-argument atan.
-inline float atan(float y, float x) {
-  return std::atan2(y, x);
-}
 
 }  // namespace airlight::shaders

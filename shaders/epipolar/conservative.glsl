@@ -8,8 +8,19 @@
 // and the cells of α and φ are bounded by lines through the eye and the light. What is left of the curvature, that
 // x = ρ cos(θ − θ_j) stands for the distance ρ from the axis, is bounded by x ≤ ρ ≤ x / cos(half a slab).
 //
-// All lengths carry a slack [m], the most that single precision misplaces a point; it makes the result
-// larger, never smaller.
+// All lengths and angles carry a slack, the most that arithmetic misplaces them; it makes the result larger, never smaller. It
+// covers any arithmetic that GLSL allows (arithmetic.glsl): with e = 2⁻²³, sums and products are right to e, quotients to 2.5 e,
+// square roots to 4.5 e, sine and cosine to 2 e, angle_of to 10 e, and sums may be taken in any order, with products fused into
+// them or not. M is the largest of the lengths from the eye to the corners and to the light.
+//   positions  A corner's coordinates are right to 6 e M; turned into a slab, to 13 e M across the axis and 8 e M along it; where
+//              an edge, up to 2 M long, is clipped, to 25 e M, and to 30 e M across a light ray; clipped again between two light
+//              rays, to 37 e M. A distance from a light ray takes 7 e M more.
+//   light rays The direction of a boundary of cells is right to 31 e, at φ = π, and 3 e for sine and cosine.
+//   θ          A border of cells is the solution of an equation that is right to 16 e, whose slope is that of the spacing, at least
+//              1 − g. The middle of a slab and its ends, sums of angles up to 2π, take 20 e more. The angle of a corner from
+//              the middle of the range is right to 55 e, the plane at an angle, times the spacing's step, to 28 e.
+//   orders     angle_order is right to 6 e, angle_from_order to 14 e, and angles are between once and twice their order.
+//   cells      cell_of_phi is right to 18 e of the cell, a cell of α, times its width, to 11 e.
 #ifndef AIRLIGHT_CONSERVATIVE_GLSL
 #define AIRLIGHT_CONSERVATIVE_GLSL
 #include "epipolar/grid.glsl"
@@ -17,16 +28,28 @@
 // No slab is wider than this, so that tan and 1/cos of its half stay small: a wide cell of θ is cut into several.
 CONST float k_widest_slab = 0.2f;  // [rad]
 
-// How many slabs a cell of θ has.
+// How many slabs a cell of θ has; at most 158 (θ steps are at most 2π, g at most 0.8, epipolar/space.cpp).
 FUNCTION uint slabs_per_plane(IN(EpipolarBlock) space) {
   return uint(ceil(space.theta_step / ((1.0f - space.theta_growth) * k_widest_slab)));
 }
 
-// What single precision may misplace a point of the triangle by: relative to the eye, its coordinates along the axes of
-// epipolar space are sums of three products of numbers rounded to 6e-8 [m].
+// Of positions, relative to M: 38 e.
+CONST float k_position_slack = 5e-6f;
+// Of the directions of light rays [rad]: 34 e.
+CONST float k_ray_slack = 5e-6f;
+// Of the borders of slabs [rad], over the density of planes: 16 e over the density and 20 e, which is at most twice as dense.
+CONST float k_border_slack = 7e-6f;
+// Of an angle θ on the way to its plane [rad], over 1 − g: 55 e and 28 e over 1 − g.
+CONST float k_theta_slack = 1e-5f;
+// Of orders: 6 e, 14 e and, for α, 11 e.
+CONST float k_order_slack = 4e-6f;
+// Of the number of cells in φ: 18 e.
+CONST float k_cell_slack = 3e-6f;
+
+// What arithmetic may misplace a point of the triangle by [m].
 FUNCTION float position_slack(IN(EpipolarBlock) space, IN(vec3) a, IN(vec3) b, IN(vec3) c) {
   float largest = max(dot(a, a), max(dot(b, b), dot(c, c)));
-  return 1e-6f * max(sqrt(largest), space.distance);
+  return k_position_slack * max(sqrt(largest), space.distance);
 }
 
 // The least distance from the origin to the segment (a, b).
@@ -73,7 +96,7 @@ FUNCTION PlaneSpan planes_of_triangle(IN(EpipolarBlock) space, IN(vec2) a, IN(ve
   float theta_a = angle_of(a.y, a.x);
   float to_b = wrapped(angle_of(b.y, b.x) - theta_a);
   float to_c = wrapped(angle_of(c.y, c.x) - theta_a);
-  float margin = 2.0f * slack / nearest + 2e-6f;
+  float margin = 2.0f * slack / nearest + k_theta_slack / (1.0f - space.theta_growth);
   float lower = wrapped(theta_a - space.theta_middle) + min(0.0f, min(to_b, to_c)) - margin;
   float upper = wrapped(theta_a - space.theta_middle) + max(0.0f, max(to_b, to_c)) + margin;
   float turn = lower < -k_pi ? 2.0f * k_pi : 0.0f;
@@ -105,7 +128,8 @@ struct SlabOutline {
 };
 
 // Keeps the part of [range.x, range.y] ⊂ [0, 1] where a linear function is not negative, f_0 at 0 and f_1 at 1. None is left
-// where range.x > range.y.
+// where range.x > range.y. Values of opposite sign must not both be so small that a GPU may flush them to 0; sums with a
+// slack are not.
 FUNCTION vec2 clip(IN(vec2) range, float f_0, float f_1) {
   float root = f_0 / (f_0 - f_1);  // used only where the signs differ
   float lower = f_0 < 0.0f ? (f_1 < 0.0f ? 2.0f : root) : 0.0f;
@@ -164,11 +188,11 @@ FUNCTION SlabOutline outline_in_slab(IN(vec3) a, IN(vec3) b, IN(vec3) c, float t
   return outline;
 }
 
-// How much further out than x a point of the slab may be.
+// How much further out than x a point of the slab may be: x (√(1 + tan²) − 1) ≤ x tan² / 2.
 FUNCTION float curvature_slack(IN(SlabOutline) outline, float tangent) {
   float farthest = 0.0f;
   for (int i = 0; i < 5; ++i) farthest = max(farthest, max(outline.segment[i].x, outline.segment[i].z));
-  return farthest * (sqrt(1.0f + tangent * tangent) - 1.0f);
+  return 0.5f * farthest * tangent * tangent;
 }
 
 // Bounds of angle_order of φ over an outline; the first is larger than the second where nothing is there.
@@ -197,8 +221,12 @@ FUNCTION float least_alpha_order(IN(SlabOutline) outline, IN(vec2) from_ray, IN(
   float least = 3.0f;
   for (int i = 0; i < 5; ++i) {
     vec4 s = outline.segment[i];
-    vec2 range = clip(vec2(0.0f, 1.0f), s.x * from_ray.x - s.y * from_ray.y + slack, s.z * from_ray.x - s.w * from_ray.y + slack);
-    range = clip(range, s.y * to_ray.y - s.x * to_ray.x + slack, s.w * to_ray.y - s.z * to_ray.x + slack);
+    // The light lies at (0, 0): no farther from it than |x| + |w|.
+    float from_slack = slack + k_ray_slack * (s.x + abs(s.y));
+    float to_slack = slack + k_ray_slack * (s.z + abs(s.w));
+    vec2 range = clip(vec2(0.0f, 1.0f), s.x * from_ray.x - s.y * from_ray.y + from_slack,
+                      s.z * from_ray.x - s.w * from_ray.y + to_slack);
+    range = clip(range, s.y * to_ray.y - s.x * to_ray.x + from_slack, s.w * to_ray.y - s.z * to_ray.x + to_slack);
     if (s.x >= 0.0f && range.x <= range.y) {
       for (int end = 0; end < 2; ++end) {
         float t = end == 0 ? range.x : range.y;
@@ -234,7 +262,7 @@ FUNCTION VoxelTriangle voxel_triangle(IN(EpipolarBlock) space, IN(vec3) a, IN(ve
 // The part of a triangle in a slab.
 struct SlabPart {
   SlabOutline outline;
-  float slack;
+  float slack;     // of its points [m]
   uint first_ray;  // the cells of φ that it may touch: from here …
   uint end_ray;    // … to before here
 };
@@ -246,20 +274,21 @@ FUNCTION vec3 seen_along_slab(IN(EpipolarBlock) space, IN(vec3) corner, float co
 // The slab between two angles θ from the middle of the range.
 FUNCTION SlabPart part_in_slab(IN(EpipolarBlock) space, IN(PhiCells) cells, IN(VoxelTriangle) triangle, float from,
                                float to) {
-  float theta = space.theta_middle + 0.5f * (from + to);
-  float cosine = cos(theta);
-  float sine = sin(theta);
-  // The inverse of the planes' spacing is right to 1e-6.
-  float tangent = tan(0.5f * (to - from) + 1e-6f);
+  float middle = 0.5f * (from + to);
+  float cos_theta = cosine(space.theta_middle + middle);
+  float sin_theta = sine(space.theta_middle + middle);
+  float half_angle = 0.5f * (to - from) + k_border_slack / (1.0f + space.theta_growth * cosine(middle));
+  float tangent = sine(half_angle) / cosine(half_angle);
   SlabPart part;
-  part.outline = outline_in_slab(seen_along_slab(space, triangle.a, cosine, sine),
-                                 seen_along_slab(space, triangle.b, cosine, sine),
-                                 seen_along_slab(space, triangle.c, cosine, sine), tangent, triangle.slack);
+  part.outline = outline_in_slab(seen_along_slab(space, triangle.a, cos_theta, sin_theta),
+                                 seen_along_slab(space, triangle.b, cos_theta, sin_theta),
+                                 seen_along_slab(space, triangle.c, cos_theta, sin_theta), tangent, triangle.slack);
   part.slack = triangle.slack + curvature_slack(part.outline, tangent);
   vec2 orders = phi_order_bounds(part.outline, part.slack);
-  // Angles and cells are rounded too.
-  float first = floor(cell_of_phi(cells, angle_from_order(max(orders.x, 0.0f))) - 1e-3f);
-  float last = floor(cell_of_phi(cells, angle_from_order(clamp(orders.y, 0.0f, 2.0f))) + 1e-3f);
+  float from_phi = angle_from_order(clamp(orders.x - k_order_slack, 0.0f, 2.0f));
+  float to_phi = angle_from_order(clamp(orders.y + k_order_slack, 0.0f, 2.0f));
+  float first = floor(cell_of_phi(cells, from_phi) - k_cell_slack * cells.count);
+  float last = floor(cell_of_phi(cells, to_phi) + k_cell_slack * cells.count);
   part.first_ray = uint(clamp(first, 0.0f, cells.count));
   part.end_ray = orders.x > orders.y ? 0u : uint(clamp(last + 1.0f, 0.0f, cells.count));
   return part;
@@ -268,17 +297,17 @@ FUNCTION SlabPart part_in_slab(IN(EpipolarBlock) space, IN(PhiCells) cells, IN(V
 // Cosine and sine of φ at a boundary of cells.
 FUNCTION vec2 boundary_ray(IN(PhiCells) cells, uint k) {
   float phi = phi_of_cell(cells, float(k));
-  return vec2(cos(phi), sin(phi));
+  return vec2(cosine(phi), sine(phi));
 }
 
 // The cell in α nearest the light that the part touches between two light rays; N_α if none.
 FUNCTION uint first_touched_cell(IN(EpipolarBlock) space, IN(SlabPart) part, IN(vec2) from_ray, IN(vec2) to_ray,
                                  uint alpha_count) {
   float order = least_alpha_order(part.outline, from_ray, to_ray, space.distance, part.slack);
-  // An order is rounded to 1e-7 of 2.
-  float alpha = angle_from_order(clamp(order - 1e-6f, 0.0f, 2.0f));
+  float alpha = angle_from_order(clamp(order - k_order_slack, 0.0f, 2.0f));
   float i = floor((alpha - space.alpha_min) / space.alpha_step);
-  return order > 2.0f ? alpha_count : uint(clamp(i, 0.0f, float(alpha_count)));
+  // An order may be rounded to a little more than 2; 3 says that nothing is there.
+  return order > 2.5f ? alpha_count : uint(clamp(i, 0.0f, float(alpha_count)));
 }
 
 #endif

@@ -9,7 +9,7 @@
 // Planes from the start of the range to an angle from its middle, in [−π, π]. Cells are denser towards the middle, where
 // with the epipole off the image's centre the rays of a plane reach farthest.
 FUNCTION float plane_of_theta(IN(EpipolarBlock) space, float from_middle) {
-  return (from_middle + space.theta_growth * sin(from_middle) + space.theta_half) / space.theta_step;
+  return (from_middle + space.theta_growth * sine(from_middle) + space.theta_half) / space.theta_step;
 }
 
 // Inverse of plane_of_theta, by Newton's method on a function that is concave on one side and convex on the other.
@@ -17,7 +17,7 @@ FUNCTION float theta_of_plane(IN(EpipolarBlock) space, float plane) {
   float y = plane * space.theta_step - space.theta_half;
   float x = y;
   for (int i = 0; i < 7; ++i) {
-    x -= (x + space.theta_growth * sin(x) - y) / (1.0f + space.theta_growth * cos(x));
+    x -= (x + space.theta_growth * sine(x) - y) / (1.0f + space.theta_growth * cosine(x));
   }
   return x;
 }
@@ -43,7 +43,7 @@ FUNCTION uint theta_cell(IN(EpipolarBlock) space, float theta, uint theta_count)
 FUNCTION float theta_to_centre(IN(EpipolarBlock) space, float theta, uint j) {
   float x = theta_from_middle(space, theta);
   float planes = float(j) + 0.5f - plane_of_theta(space, x);
-  return planes * space.theta_step / (1.0f + space.theta_growth * cos(x));
+  return planes * space.theta_step / (1.0f + space.theta_growth * cosine(x));
 }
 
 // The cell that holds α, the nearest one for an α outside the range.

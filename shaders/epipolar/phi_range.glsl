@@ -5,5 +5,7 @@ layout(std430, binding = k_phi_range_storage) readonly buffer PhiRange {
 };
 
 PhiCells phi_cells() {
-  return PhiCells(angle_from_order(uintBitsToFloat(largest_order)), phi_growth, float(k_phi_count));
+  // A camera that sees nothing but a surface at the eye itself has no range.
+  float phi_max = max(angle_from_order(uintBitsToFloat(largest_order)), 1e-6);
+  return PhiCells(phi_max, phi_growth, float(k_phi_count));
 }

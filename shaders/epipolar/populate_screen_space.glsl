@@ -5,7 +5,8 @@
 // last of those bits is flipped here; screen_space_resolve.comp flips the others.
 //
 // A crossing must be found by exactly one of the triangles that meet at an edge. Which side of an edge a ray passes is
-// therefore decided from the edge's two corners alone, taken in an order that does not depend on the triangle.
+// therefore decided from the edge's two corners alone, taken in an order that does not depend on the triangle, and by sums and
+// products alone that are PRECISE: both passes, two programs, must come to the same bits.
 #include "epipolar/uniforms.glsl"
 #include "epipolar/conservative.glsl"
 #include "epipolar/resolution.glsl"
@@ -19,8 +20,7 @@ layout(std430, binding = k_scratch_storage) buffer Flips { uint flips[]; };  // 
 
 vec3 corner(uint index) {
   vec3 p = eye_relative(camera, texelFetch(positions, int(index)).xyz);
-  precise vec3 q = vec3(dot(p, space.u), dot(p, space.f), dot(p, space.axis));
-  return q;
+  return vec3(ordered_dot(p, space.u), ordered_dot(p, space.f), ordered_dot(p, space.axis));
 }
 
 struct Edge {
@@ -33,14 +33,13 @@ Edge make_edge(vec3 a, vec3 b) {
   edge.is_reversed = a.x != b.x ? a.x > b.x : a.y != b.y ? a.y > b.y : a.z > b.z;
   vec3 p = edge.is_reversed ? b : a;
   vec3 q = edge.is_reversed ? a : b;
-  precise vec3 normal = p.yzx * q.zxy - p.zxy * q.yzx;
+  PRECISE vec3 normal = p.yzx * q.zxy - p.zxy * q.yzx;
   edge.normal = normal;
   return edge;
 }
 
 bool is_left(Edge edge, vec3 ray) {
-  precise float side = edge.normal.x * ray.x + edge.normal.y * ray.y + edge.normal.z * ray.z;
-  return (side > 0.0) != edge.is_reversed;
+  return (ordered_dot(edge.normal, ray) > 0.0) != edge.is_reversed;
 }
 
 struct ScreenTriangle {
@@ -89,23 +88,32 @@ vec2 alpha_bounds(ScreenTriangle t, float cosine, float sine) {
   return bounds;
 }
 
+// α of a row, at the centre of its cell.
+EyeAngle row_angle(uint i) {
+  PRECISE float alpha = space.alpha_min + (float(i) + 0.5) * space.alpha_step;
+  return EyeAngle(sine(alpha), cosine(alpha));
+}
+
+// The row's view ray, along u, f and the axis.
+vec3 row_ray(EyeAngle angle, float plane_cosine, float plane_sine) {
+  PRECISE vec3 ray = vec3(angle.sine * plane_cosine, angle.sine * plane_sine, angle.cosine);
+  return ray;
+}
+
 // Flips a bit for each row of the triangle's `index`th plane whose view ray crosses it.
 void voxelize_in_plane(ScreenTriangle t, uint index) {
   uint j = plane_at(t.planes, index);
-  float cosine = texelFetch(planes, int(j)).x;
-  float sine = texelFetch(planes, int(j)).y;
-  vec2 bounds = alpha_bounds(t, cosine, sine);
+  float plane_cosine = texelFetch(planes, int(j)).x;
+  float plane_sine = texelFetch(planes, int(j)).y;
+  vec2 bounds = alpha_bounds(t, plane_cosine, plane_sine);
   uint first = alpha_cell(space, bounds.x - space.alpha_step, k_alpha_count);
   uint end = bounds.x > bounds.y ? 0u : alpha_cell(space, bounds.y + space.alpha_step, k_alpha_count) + 1u;
   uint plane = j - window_first_plane;
   if (j < window_first_plane || plane >= window_planes) end = 0u;
   PhiCells cells = phi_cells();
   for (uint i = first; i < end; ++i) {
-    float alpha = space.alpha_min + (float(i) + 0.5) * space.alpha_step;
-    EyeAngle angle;
-    angle.sine = sin(alpha);
-    angle.cosine = cos(alpha);
-    vec3 ray = vec3(angle.sine * cosine, angle.sine * sine, angle.cosine);
+    EyeAngle angle = row_angle(i);
+    vec3 ray = row_ray(angle, plane_cosine, plane_sine);
     bool left = is_left(t.ab, ray);
     vec3 normal = cross(t.b - t.a, t.c - t.a);
     bool is_ahead = (dot(normal, t.a) > 0.0) == (dot(normal, ray) > 0.0);

@@ -17,15 +17,15 @@ void main() {
   uint k = gl_GlobalInvocationID.x;
   if (k >= k_phi_count) return;
   float phi = phi_of_cell(phi_cells(), float(k) + 0.5);
-  float sin_phi = sin(phi);
-  float cos_phi = cos(phi);
+  float sin_phi = sine(phi);
+  float cos_phi = cosine(phi);
   uint end = min((gl_GlobalInvocationID.y + 1u) * k_planes, k_theta_count);
   for (uint j = gl_GlobalInvocationID.y * k_planes; j < end; ++j) {
     vec2 plane = texelFetch(planes, int(j)).xy;
     vec3 outward = plane.x * space.u + plane.y * space.f;
     CubePoint point = cube_point(sin_phi * outward - cos_phi * space.axis);
     float depth = texelFetch(shadow_map, ivec3(cube_texel(point.uv, light.shadow_map_size), point.face), 0).r;
-    float r = light.near / (max(depth, 1e-37) * point.depth);  // along the unit light ray
+    float r = light.near / (max(depth, 1e-30) * point.depth);  // along the unit light ray
     uint first = first_shadowed_cell(space, alpha_at(space, sin_phi, cos_phi, r), k_alpha_count);
     first_shadowed[j * k_phi_count + k] = depth == 0.0 ? k_alpha_count : first;
   }

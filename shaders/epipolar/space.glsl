@@ -10,9 +10,7 @@
 // All vectors are relative to the eye.
 #ifndef AIRLIGHT_SPACE_GLSL
 #define AIRLIGHT_SPACE_GLSL
-#include "shared.glsl"
-
-CONST float k_pi = 3.14159265358979f;
+#include "arithmetic.glsl"
 
 // The frame of the space and the ranges of its grid; one uniform block (std140), written by epipolar/space.cpp.
 struct EpipolarBlock {
@@ -27,27 +25,6 @@ struct EpipolarBlock {
   float theta_step;    // mean width of a cell in θ [rad]
   float theta_growth;  // g ∈ [0, 1): cells are 1 + g cos(θ − θ_middle) as dense as equal ones; 0 unless the turn is full
 };
-
-// Angle of (x, y) from the x axis, in (−π, π]; 0 for (0, 0). As right as GLSL's atan(y, x), to 2e-7 of the result, but
-// GLSL's takes an order of magnitude longer on llvmpipe, and there are several a pixel. The arc tangent of a slope up to 1
-// is a polynomial through its Chebyshev nodes, of relative error 2e-8.
-FUNCTION float angle_of(float y, float x) {
-  float long_side = max(abs(x), abs(y));
-  float slope = min(abs(x), abs(y)) / max(long_side, 1e-37f);
-  float s = slope * slope;
-  float p = 0.00276628f;
-  p = p * s - 0.01573125f;
-  p = p * s + 0.04213762f;
-  p = p * s - 0.07456855f;
-  p = p * s + 0.10618371f;
-  p = p * s - 0.14197798f;
-  p = p * s + 0.19991872f;
-  p = p * s - 0.33333037f;
-  p = (p * s + 1.0f) * slope;
-  p = abs(y) > abs(x) ? 0.5f * k_pi - p : p;
-  p = x < 0.0f ? k_pi - p : p;
-  return y < 0.0f ? -p : p;
-}
 
 // Sine and cosine of α. Kept apart because sin α divides the airlight, and the sine of α would have lost its digits near 0 and π.
 struct EyeAngle {
@@ -82,7 +59,7 @@ FUNCTION float phi_at(IN(EpipolarBlock) space, IN(EyeAngle) angle, float t) {
 
 // Inverse of phi_at: distance from the eye of the point at φ, by the law of sines. Needs φ < π − α.
 FUNCTION float distance_from_eye(IN(EpipolarBlock) space, IN(EyeAngle) angle, float phi) {
-  return space.distance * sin(phi) / (angle.sine * cos(phi) + angle.cosine * sin(phi));
+  return space.distance * sine(phi) / (angle.sine * cosine(phi) + angle.cosine * sine(phi));
 }
 
 // α of the point at distance r from the light on a light ray at φ.
@@ -92,19 +69,19 @@ FUNCTION float alpha_at(IN(EpipolarBlock) space, float sin_phi, float cos_phi, f
 
 // Unit direction of the light ray (θ, φ).
 FUNCTION vec3 light_ray(IN(EpipolarBlock) space, float theta, float phi) {
-  return sin(phi) * (cos(theta) * space.u + sin(theta) * space.f) - cos(phi) * space.axis;
+  return sine(phi) * (cosine(theta) * space.u + sine(theta) * space.f) - cosine(phi) * space.axis;
 }
 
 // Unit direction of the view ray (α, θ).
 FUNCTION vec3 view_ray_of(IN(EpipolarBlock) space, float alpha, float theta) {
-  return sin(alpha) * (cos(theta) * space.u + sin(theta) * space.f) + cos(alpha) * space.axis;
+  return sine(alpha) * (cosine(theta) * space.u + sine(theta) * space.f) + cosine(alpha) * space.axis;
 }
 
 // Length of the path from the light to the eye by way of (α, φ): t + r = D cos((α − φ)/2) / cos((α + φ)/2), which has
 // no 0/0. Taken from π − α, it keeps its digits near α = π, where both sines are small. Infinite at α + φ = π.
 FUNCTION float path_length(IN(EpipolarBlock) space, float complement, float phi) {
-  float opening = sin(0.5f * max(complement - phi, 0.0f));  // cos((α + φ)/2)
-  float closing = sin(0.5f * (complement + phi));           // cos((α − φ)/2)
+  float opening = sine_of_quarter(0.5f * max(complement - phi, 0.0f));  // cos((α + φ)/2)
+  float closing = sine(0.5f * (complement + phi));                      // cos((α − φ)/2)
   return opening > 0.0f ? space.distance * closing / opening : 1e30f;
 }
 
@@ -112,13 +89,13 @@ FUNCTION float path_length(IN(EpipolarBlock) space, float complement, float phi)
 // largest of many angles.
 FUNCTION float angle_order(float y, float x) {
   float size = abs(x) + y;
-  return size > 0.0f ? 1.0f - x / size : 0.0f;
+  return size > 1e-37f ? 1.0f - x / size : 0.0f;
 }
 
-// The angle whose order it is.
+// The angle whose order it is. A quotient that is 1 may come out as 1 + 3e-7, and so the order as more than 2 or less than 0.
 FUNCTION float angle_from_order(float order) {
   float x = 1.0f - order;
-  return angle_of(1.0f - abs(x), x);
+  return angle_of(max(1.0f - abs(x), 0.0f), x);
 }
 
 #endif

@@ -36,8 +36,8 @@ void main() {
   float k = clamp(floor(cell_of_phi(cells, phi_at(space, angle, surface.w))), 0.0, float(k_phi_count) - 1.0);
   uint j = theta_cell(space, theta_of(space, direction), k_theta_count);
   float phi = phi_of_cell(cells, k + (k_whole_voxels ? 1.0 : 0.5));
-  float sin_phi = sin(phi);
-  float cos_phi = cos(phi);
+  float sin_phi = sine(phi);
+  float cos_phi = cosine(phi);
   vec2 plane_direction = texelFetch(planes, int(j)).xy;
   vec3 outward = plane_direction.x * space.u + plane_direction.y * space.f;
   vec3 ray = sin_phi * outward - cos_phi * space.axis;

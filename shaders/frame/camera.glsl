@@ -2,7 +2,7 @@
 // no precision.
 #ifndef AIRLIGHT_CAMERA_GLSL
 #define AIRLIGHT_CAMERA_GLSL
-#include "shared.glsl"
+#include "arithmetic.glsl"
 
 // A uniform block (std140), written once a frame by frame/blocks.cpp.
 struct CameraBlock {
@@ -18,8 +18,11 @@ struct CameraBlock {
   float near;        // depth [m] below which the G-buffer no longer orders surfaces
 };
 
-// Position relative to the eye of a world-space position. Exact where the two are close (Sterbenz).
-FUNCTION vec3 eye_relative(IN(CameraBlock) camera, vec3 world) { return (world - camera.eye_high) - camera.eye_low; }
+// Position relative to the eye of a world-space position. Exact where the two are close (Sterbenz), if subtracted in this order.
+FUNCTION vec3 eye_relative(IN(CameraBlock) camera, vec3 world) {
+  PRECISE vec3 relative = (world - camera.eye_high) - camera.eye_low;
+  return relative;
+}
 
 // Unit direction of the view ray through a point of the image, in pixels from its top left corner; pixel centres lie
 // at half-integers.
@@ -44,7 +47,8 @@ FUNCTION float ray_triangle_distance(IN(vec3) ray, IN(vec3) a, IN(vec3) b, IN(ve
   float nearest = min(da, min(db, dc));
   float farthest = max(da, max(db, dc));
   float facing = dot(normal, ray);
-  float t = facing == 0.0f ? nearest : dot(normal, a) / facing;
+  float height = dot(normal, a);
+  float t = abs(height) < 1e20f * abs(facing) ? height / facing : nearest;  // no quotient that may overflow
   return clamp(t, nearest, farthest);
 }
 

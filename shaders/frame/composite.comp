@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "frame/light_texture.glsl"
+#include "frame/light_colour.glsl"
 #include "frame/uniforms.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -15,16 +15,6 @@ layout(binding = k_output_image, rgba32f) uniform image2D radiance_image;
 layout(binding = k_sum_image, rgba32f) uniform image2D airlight_sum;
 layout(constant_id = 0) const uint k_light_textured = 0;
 layout(constant_id = 1) const uint k_adds = 0;  // to what the lights before have left in both images
-
-const float k_pi = 3.14159265358979;
-
-// What the light radiates in the direction `d`, relative to its intensity.
-vec3 light_colour(vec3 d) {
-  if (k_light_textured == 0u) return vec3(1.0);
-  float equator = length(d.xz);
-  float longitude = equator > 0.0 ? atan(d.x, d.z) : 0.0;
-  return textureLod(light_texture, light_texture_place(longitude, atan(d.y, max(equator, 1e-30))), 0.0).rgb;
-}
 
 // Lambert surfaces lit by one light, attenuated from the light to the surface and on to the eye, plus its airlight.
 void main() {
@@ -41,8 +31,9 @@ void main() {
     float r = length(to_light);
     float cosine = dot(surface.xyz, to_light) / max(r, 1e-30);
     vec3 albedo = texelFetch(albedos, int(texelFetch(material_of_triangle, int(seen) - 1).r)).rgb;
-    radiance += visibility * max(cosine, 0.0) * albedo / k_pi * light.intensity / max(r * r, 1e-30) *
-                light_colour(-to_light) * exp(-medium.sigma_t * (r + distance));
+    vec3 colour = k_light_textured != 0u ? light_colour(light_texture, -to_light) : vec3(1.0);
+    radiance += visibility * max(cosine, 0.0) * albedo / k_pi * light.intensity / max(r * r, 1e-20) * colour *
+                exp(-medium.sigma_t * (r + distance));
   }
   if (k_adds != 0u) {
     radiance += imageLoad(radiance_image, pixel).rgb;

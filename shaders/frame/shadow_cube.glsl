@@ -11,7 +11,7 @@ struct CubePoint {
   float depth;  // coordinate along the face's axis, > 0
 };
 
-// The point of the cube in direction `d` (any length > 0), whose depth is that of `d`.
+// The point of the cube in direction `d`, whose depth is that of `d`; the middle of a face for a `d` of no length.
 FUNCTION CubePoint cube_point(IN(vec3) d) {
   vec3 size = abs(d);
   CubePoint point;
@@ -32,7 +32,7 @@ FUNCTION CubePoint cube_point(IN(vec3) d) {
   }
   point.face += along < 0.0f ? 1 : 0;
   point.depth = abs(along);
-  point.uv = across / point.depth;
+  point.uv = across / max(point.depth, 1e-30f);
   return point;
 }
 

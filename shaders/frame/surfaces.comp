@@ -21,7 +21,8 @@ void main() {
     vec3 b = eye_relative(camera, texelFetch(positions, int(corners.y)).xyz);
     vec3 c = eye_relative(camera, texelFetch(positions, int(corners.z)).xyz);
     vec3 ray = view_ray(camera, vec2(pixel) + 0.5);
-    vec3 normal = normalize(cross(b - a, c - a));
+    // Three corners in line may be seen once they are rasterised.
+    vec3 normal = unit_or(cross(b - a, c - a), -ray);
     surface.xyz = dot(normal, ray) > 0.0 ? -normal : normal;
     surface.w = max(ray_triangle_distance(ray, a, b, c), 1e-30);
   }

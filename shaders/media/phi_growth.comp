@@ -28,7 +28,7 @@ void main() {
   for (uint i = 0u; i < k_steps; ++i) {
     float phi = phi_max * (float(i) + 0.5) / float(k_steps);
     vec3 f = airlight_integrand(space, medium, k_phase, complement, phi);
-    density[i] = pow(max(f.x, max(f.y, f.z)), 2.0 / 3.0);
+    density[i] = pow(max(f.x, max(f.y, f.z)) + 1e-30, 2.0 / 3.0);  // of 0 a logarithm need not be infinite
     total += density[i];
   }
   float sum = 0.0;

@@ -3,6 +3,7 @@
 #include "epipolar/resolution.glsl"
 #include "epipolar/phi_range.glsl"
 #include "media/medium.glsl"
+#include "media/row_end.glsl"
 
 layout(constant_id = 3) const uint k_phase = 0;
 
@@ -47,24 +48,13 @@ VsvRay vsv_ray(ivec2 pixel) {
   // 1/sin α grows a leak would circle the epipole.
   ray.last_valid = int(ray.last_cell);
   ray.unknown = 0u;
-  float phi_t = surface.w * ray.angle.sine;  // the end of the ray: sine and cosine of φ_d, times r
-  float phi_r = space.distance - surface.w * ray.angle.cosine;
-  float plane = surface.w * dot(surface.xyz, direction);  // of the surface, its distance from the eye, < 0
   if (!ray.is_open) {
-    // The row's ray, to first order in what separates it from this one.
     float d_alpha = space.alpha_min + (float(i) + 0.5) * space.alpha_step - ray.alpha;
-    float d_theta = theta_to_centre(space, theta, j);
-    vec3 outward = (direction - ray.angle.cosine * space.axis) / ray.angle.sine;
-    vec3 row_direction = direction + d_alpha * (ray.angle.cosine * outward - ray.angle.sine * space.axis) +
-                         d_theta * ray.angle.sine * cross(space.axis, outward);
-    float row_distance = plane / min(dot(surface.xyz, row_direction), -1e-20);
-    // tan(φ of the row − φ_d), which is φ's difference where that matters: within a few cells.
-    float row_t = row_distance * (ray.angle.sine + d_alpha * ray.angle.cosine);
-    float row_r = space.distance - row_distance * (ray.angle.cosine - d_alpha * ray.angle.sine);
-    float d_phi = (row_t * phi_r - row_r * phi_t) / max(row_r * phi_r + row_t * phi_t, 1e-20);
+    float d_phi = phi_to_row_end(space, ray.angle, direction, surface, d_alpha, theta_to_centre(space, theta, j));
     float row_end = cell_of_phi(ray.cells, max(ray.phi_end + d_phi, 0.0));
-    ray.last_valid = min(ray.last_valid, int(ceil(row_end - 0.5 - k_plane_slack)) - 1);
-    ray.unknown = dot(surface.xyz, light.from_eye) > plane ? 0u : 0xffffffffu;  // lit where the surface faces the light
+    ray.last_valid = int(clamp(ceil(row_end - 0.5 - k_plane_slack) - 1.0, -1.0, float(ray.last_cell)));
+    // Lit where the surface faces the light.
+    ray.unknown = dot(surface.xyz, light.from_eye) > surface.w * dot(surface.xyz, direction) ? 0u : 0xffffffffu;
   }
   return ray;
 }

@@ -1,6 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "frame/light_texture.glsl"
+#include "frame/light_colour.glsl"
 #include "media/vsv_ray.glsl"
 
 // Airlight from the shadow volume as the paper sums it (Eq. 5), in φ instead of t: the integrand at the centre of every lit
@@ -11,11 +11,9 @@ layout(binding = k_light_texture_unit) uniform sampler2D light_texture;
 
 // What the light radiates along the light ray at φ, relative to its intensity. `outward` is the direction in the plane of the
 // view ray at right angles to the axis.
-vec3 light_colour(vec3 outward, float phi) {
+vec3 colour_at(vec3 outward, float phi) {
   if (k_light_textured == 0u) return vec3(1.0);
-  vec3 d = sin(phi) * outward - cos(phi) * space.axis;
-  vec2 place = light_texture_place(angle_of(d.x, d.z), angle_of(d.y, length(d.xz)));
-  return textureLod(light_texture, place, 0.0).rgb;
+  return light_colour(light_texture, sine(phi) * outward - cosine(phi) * space.axis);
 }
 
 void main() {
@@ -25,7 +23,7 @@ void main() {
   float complement = alpha_complement(ray.angle);
   vec3 direction = view_ray(camera, vec2(pixel) + 0.5);
   vec3 outward = dot(direction, space.u) * space.u + dot(direction, space.f) * space.f;
-  outward = outward == vec3(0.0) ? space.u : normalize(outward);
+  outward = unit_or(outward, space.u);
   vec3 sum = vec3(0.0);
   uvec4 words;
   uint before = ray.unknown;
@@ -40,7 +38,7 @@ void main() {
       float phi = phi_of_cell(ray.cells, float(k) + 0.5);
       float width = phi_of_cell(ray.cells, float(k + 1u)) - phi_of_cell(ray.cells, float(k));
       if (phi < ray.phi_end) {
-        sum += width * airlight_integrand(space, medium, k_phase, complement, phi) * light_colour(outward, phi);
+        sum += width * airlight_integrand(space, medium, k_phase, complement, phi) * colour_at(outward, phi);
       }
     }
   }

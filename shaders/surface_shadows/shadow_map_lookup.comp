@@ -8,10 +8,14 @@ layout(binding = k_surface_unit) uniform sampler2D surface_image;
 layout(binding = k_shadow_map_unit) uniform sampler2DArray shadow_map;
 layout(binding = k_output_image, r32f) uniform writeonly image2D visibility_image;
 
-// Relative slack of the depth test on a plane: what rasterisation to 1/256 texel and single precision leave.
+// Relative slack of the depth test on a plane: what single precision leaves.
 const float k_slack = 1e-4;
-// On a curved surface the texel's centre may lie on a neighbouring facet, which differs from the plane by a share of what
-// the plane rises over a texel. In texels; a whole one detaches more shadows from their casters than it mends.
+// A curved surface may lie on a neighbouring facet at the texel's centre, which differs from the plane by a share of what the plane
+// rises over a texel. In texels; a whole one detaches more shadows from their casters than it mends.
+//
+// It is also what rasterisation may take: it snaps corners to 2^−GL_SUBPIXEL_BITS texel, at worst to 1/16 (at least 4 bits;
+// GPUs have 8), and a point of a triangle moves by no more than its corners, half a step along each side of the texel: √2/32 =
+// 0.044 texels. With `rise` below cut at 20 that holds to half a degree of edge-on, where Lambert's cosine leaves 1 % of the light.
 const float k_bend = 0.25;
 
 // Shadow-map look-up with the receiver's own plane as bias: the surface is compared where the texel's centre looks, not where
@@ -27,12 +31,17 @@ void main() {
     ivec2 texel = cube_texel(point.uv, light.shadow_map_size);
     float depth = texelFetch(shadow_map, ivec3(texel, point.face), 0).r;
     vec3 centre = cube_direction(point.face, cube_texel_centre(texel, light.shadow_map_size));
-    float plane_depth = dot(surface.xyz, from_light) / dot(surface.xyz, centre);
-    // A surface seen edge-on from the light has no depth at the texel's centre: its own has to do.
-    float receiver = plane_depth > 0.5 * point.depth && plane_depth < 2.0 * point.depth ? plane_depth : point.depth;
+    float plane = dot(surface.xyz, from_light);
+    float slope = dot(surface.xyz, centre);
+    bool faces_light = plane < 0.0;
+    // The depth of the plane at the texel's centre is plane / slope. A surface seen edge-on from the light has none there: its
+    // own has to do.
+    float far_plane = slope < 0.0 ? -plane : plane;
+    bool has_depth = far_plane > 0.5 * point.depth * abs(slope) && far_plane < 2.0 * point.depth * abs(slope);
+    float receiver = has_depth ? far_plane / abs(slope) : point.depth;
     float cosine = abs(dot(surface.xyz, normalize(centre)));
     float rise = sqrt(max(1.0 - cosine * cosine, 0.0)) / max(cosine, 0.05);  // of the plane, by depth and texel width
-    bool faces_light = dot(surface.xyz, from_light) < 0.0;  // the far side of a thin body needs every digit
+    // A surface that turns its back is dark in truth, so only light can be wrong: the far side of a thin body needs every digit.
     float slack = k_slack + (faces_light ? k_bend * rise * 2.0 / light.shadow_map_size : 0.0);
     visibility = depth == 0.0 || receiver * depth <= light.near * (1.0 + slack) ? 1.0 : 0.0;
   }

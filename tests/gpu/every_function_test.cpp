@@ -1,7 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -25,58 +25,103 @@ namespace {
 using shaders::Inputs;
 using shaders::Outputs;
 
-/// How the values of a function are compared: |gpu − cpu| ≤ relative · |cpu| + absolute.
+/// What a tolerance is multiplied by.
+enum class Scale {
+  one,
+  length,   ///< the larger of D and t: of a triangle that reaches up to twice as far
+  grazing,  ///< 1 / sin(α + φ), by which the rounding of angles is magnified
+};
+
+/// How the values of a function are compared: |gpu − cpu| ≤ (relative · |cpu| + absolute) · scale, but for a
+/// few inputs, of all, where a decision may turn out either way.
 struct Function {
   const char* name;
   int values;
   double relative, absolute;
+  Scale scale = Scale::one;
+  int undecided = 0;
 };
 
-/// Both sides round to single precision, and compilers may fuse a product into a sum.
+/// Both sides round to single precision some times, and compilers may fuse a product into a sum.
 constexpr double k_single = 1e-6;
-/// Mesa's arc tangent is a polynomial whose first coefficient is 1 − 2.1e-5.
-constexpr double k_atan = 2.2e-5;
+/// One rounding, in whatever direction, on either side.
+constexpr double k_rounding = 2.4e-7;
+/// angle_of on a GPU whose quotients are no better than GLSL asks, 2.5 ulp, and on the CPU, where it is right
+/// to 2e-7.
+constexpr double k_angle = 1.4e-6;
+/// sine and cosine: 3e-7 on a GPU and 1.3e-7 on the CPU.
+constexpr double k_sine = 4.3e-7;
 
 // Absolute tolerances stand where a function is a difference: near 0 only the size of its terms counts.
 constexpr Function k_functions[] = {
     {"eye_angle.sine", 1, k_single, 2e-7},    // cross product of unit vectors
     {"eye_angle.cosine", 1, k_single, 2e-7},  // dot product of unit vectors
-    {"alpha_of", 1, k_atan, 4e-7},            // of the two above
-    {"alpha_complement", 1, k_atan, 4e-7},
-    {"theta_of", 1, k_atan, 2e-5},          // two dot products over sin α ≥ 0.02
-    {"phi_at", 1, k_atan, 2e-5},            // D − t cos α over a distance to the light ≥ 0.02 D
-    {"distance_from_eye", 1, k_single, 0},  // divided by sin(α + φ) below
-    {"alpha_at", 1, k_atan, 2e-5},          // as phi_at
-    {"light_ray", 3, k_single, 3e-7},       // sums of unit vectors
-    {"view_ray_of", 3, k_single, 3e-7},
-    {"path_length", 1, k_single, 0},
-    {"angle_order", 1, k_single, 3e-7},  // 1 − x
-    {"angle_from_order", 1, k_atan, 3e-7},
-    {"theta_centre", 1, k_single, 5e-7},  // θ − π
-    {"theta_cell", 1, 0, 1},              // a cell: either side of its edge
-    {"alpha_cell", 1, 0, 1},
-    {"first_shadowed_cell", 1, 0, 1},
+    {"alpha_of", 1, k_angle, 4e-7},           // of the two above
+    {"alpha_complement", 1, k_angle, 4e-7},
+    {"theta_of", 1, k_angle, 2e-5},  // two dot products over sin α ≥ 0.02
+    {"phi_at", 1, k_angle, 2e-5},    // D − t cos α over a distance to the light ≥ 0.02 D
+    {"distance_from_eye", 1, k_single, 0, Scale::grazing},
+    {"alpha_at", 1, k_angle, 2e-5},   // as phi_at
+    {"light_ray", 3, 0, 3 * k_sine},  // sums of unit vectors, times sines
+    {"view_ray_of", 3, 0, 3 * k_sine},
+    {"path_length", 1, 2 * k_single, 0},  // two sines and a quotient
+    {"angle_order", 1, 0, 7e-7},          // 1 − x, of a quotient
+    {"angle_from_order", 1, k_angle, 3e-7},
+    {"theta_centre", 1, 0, 4e-6},  // Newton's method on sums of angles
+    {"theta_cell", 1, 0, 0, Scale::one, 20},
+    {"alpha_cell", 1, 0, 0, Scale::one, 20},
+    {"first_shadowed_cell", 1, 0, 0, Scale::one, 20},
     {"grid_word", 1, 0, 0},
     {"phase isotropic", 1, k_single, 0},
     {"phase rayleigh", 1, k_single, 0},
     {"phase henyey-greenstein", 1, k_single, 0},
     {"phase hoffman-preetham", 1, k_single, 0},
-    {"airlight_integrand", 3, k_single, 2e-7},  // e^{−x}: a relative error of x is one of x times as much
-    {"integrate_cell", 3, k_single, 2e-8},
+    {"airlight_integrand", 3, 2 * k_single, 4e-7},  // exp: 3 + 2x ulp of e^−x
+    {"integrate_cell", 3, 2 * k_single, 4e-8},      // a tenth of that wide
     {"airlight_scale", 3, k_single, 0},
-    {"cube_point.face", 1, 0, 0},
+    {"cube_point.face", 1, 0, 0, Scale::one, 20},
     {"cube_point.uv", 2, k_single, 0},
     {"cube_point.depth", 1, 0, 0},
     {"cube_direction", 3, k_single, 0},
-    {"cube_texel", 2, 0, 1},  // a texel: either side of its edge
-    {"cube_texel_centre", 2, k_single, 1.0 / 256},
+    {"cube_texel", 2, 0, 0, Scale::one, 20},
+    {"cube_texel_centre", 2, k_single, 2e-7, Scale::one, 20},  // of the same texel
     {"view_ray", 3, k_single, 3e-7},
     {"quarter_pixel", 1, k_single, 0},
-    {"eye_relative", 3, k_single, 1e-5},       // a difference of coordinates up to 100
+    {"eye_relative", 3, k_rounding, 0},        // near the eye the first difference is exact
     {"ray_triangle_distance", 1, 1e-5, 1e-5},  // of a plane seen at up to 80° from its normal
     {"phi_of_cell", 1, k_single, 0},
-    {"cell_of_phi", 1, k_single, 0},
-    {"light_texture_place", 2, k_single, 1e-6},  // ½ minus an angle
+    {"cell_of_phi", 1, 3 * k_single, 0},                       // 18 ulp (conservative.glsl)
+    {"light_texture_place", 2, k_single, 2e-7},                // ½ minus an angle
+    {"light_texture_blend.from", 3, 0, 2e-5, Scale::one, 20},  // up to 40 texels; texel and weight together
+    {"light_texture_blend.to", 3, 0, 2e-5, Scale::one, 20},
+    {"sine", 1, 0, k_sine},
+    {"cosine", 1, 0, k_sine},
+    {"sine_of_quarter", 1, 6e-7, 0},
+    {"angle_of", 1, k_angle, 0},
+    {"ordered_dot", 1, 0, 3 * k_rounding},
+    {"unit_or", 3, 2 * k_single, 0},
+    {"plane_of_theta", 1, 0, 2e-4},  // 28 e (conservative.glsl) over 0.018, the spacing's step
+    {"theta_of_plane", 1, 0, 4e-6},
+    {"theta_from_middle", 1, 0, 1e-6},
+    {"theta_to_centre", 1, 0, 1e-5},
+    {"phi_to_row_end", 1, k_angle, 1e-4},  // of cross products of points ≥ 0.02 D from the light
+    // Conservative voxelization; see there what its slacks stand for.
+    {"slabs_per_plane", 1, 0, 0},
+    {"position_slack", 1, k_single, 0},
+    {"distance_to_segment", 1, 0, 3e-6, Scale::length},
+    {"wrapped", 1, 0, 1e-6},
+    {"voxel_triangle", 3, 0, 2e-6, Scale::length},
+    {"planes_of_triangle", 4, 0, 0, Scale::one, 60},
+    {"plane_at", 1, 0, 0, Scale::one, 60},
+    {"clip", 2, k_single, 0},
+    {"outline_in_slab", 20, 0, 1e-5, Scale::length, 20},
+    {"curvature_slack", 1, 0, 1e-9, Scale::length, 20},
+    {"phi_order_bounds", 2, 0, 1e-4, Scale::one, 20},  // seen from the light, points misplaced by the slack
+    {"part_in_slab.first_ray", 1, 0, 1, Scale::one, 20},
+    {"part_in_slab.end_ray", 1, 0, 1, Scale::one, 20},
+    {"boundary_ray", 2, 0, 5e-6},  // 34 e
+    {"least_alpha_order", 1, 0, 1e-4, Scale::one, 20},
+    {"first_touched_cell", 1, 0, 1, Scale::one, 20},
 };
 
 std::vector<Inputs> random_inputs(int count) {
@@ -119,25 +164,28 @@ TEST(EveryFunction, OnTheGpuEqualsTheSameOnTheCpu) {
   for (const Function& function : k_functions) {
     double worst = 0.0;  // in units of the tolerance
     std::size_t worst_input = 0, worst_value = at;
+    int beyond = 0;
     for (int value = 0; value < function.values; ++value, ++at) {
       for (std::size_t i = 0; i < inputs.size(); ++i) {
         const auto gpu = static_cast<double>(gpu_outputs[i].values[at]);
         const auto cpu = static_cast<double>(cpu_outputs[i].values[at]);
-        double tolerance = function.relative * std::abs(cpu) + function.absolute;
-        const bool is_distance = std::string_view(function.name) == "distance_from_eye";
-        if (is_distance) tolerance /= static_cast<double>(std::sin(inputs[i].c.w - inputs[i].c.z));
+        const double scale = function.scale == Scale::length
+                                 ? static_cast<double>(std::max(inputs[i].a.w, inputs[i].b.w))
+                             : function.scale == Scale::grazing
+                                 ? 1.0 / static_cast<double>(std::sin(inputs[i].c.w - inputs[i].c.z))
+                                 : 1.0;
+        const double tolerance = (function.relative * std::abs(cpu) + function.absolute) * scale;
         const double excess = gpu == cpu ? 0.0 : std::abs(gpu - cpu) / tolerance;
+        beyond += excess <= 1.0 ? 0 : 1;
         if (!(excess <= worst)) worst = excess, worst_input = i, worst_value = at;
       }
     }
-    EXPECT_LE(worst, 1.0) << function.name << " of input " << worst_input << ": gpu "
-                          << gpu_outputs[worst_input].values[worst_value] << ", cpu "
-                          << cpu_outputs[worst_input].values[worst_value];
+    EXPECT_LE(beyond, function.undecided) << function.name << ", most of input " << worst_input << ": gpu "
+                                          << gpu_outputs[worst_input].values[worst_value] << ", cpu "
+                                          << cpu_outputs[worst_input].values[worst_value];
     RecordProperty(function.name, std::to_string(worst));
   }
-  EXPECT_LE(at, shaders::k_outputs);
-  for (; at < shaders::k_outputs; ++at)
-    EXPECT_EQ(cpu_outputs[0].values[at], 0.0f) << "a value that is not compared";
+  EXPECT_EQ(at, shaders::k_outputs);
 }
 
 }  // namespace

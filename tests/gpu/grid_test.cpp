@@ -103,7 +103,7 @@ TEST_P(GridWindows, GiveTheBitsOfOne) {
   tests::look_into_frame(
       scene.geometry, view_of(scene, {32, 32}), 128, [&](const frame::FrameInputs& inputs) {
         const gpu::Limits& all = inputs.context.limits();
-        const VolumeSettings settings{.resolution = n, .populate = populate, .scan = scan};
+        const VolumeOptions settings{.resolution = n, .populate = populate, .scan = scan};
         const auto bits = [&](const gpu::Limits& limits, std::size_t windows, int planes) {
           ShadowVolume volume(limits, settings);
           EXPECT_EQ(volume.grid().windows().size(), windows);
@@ -145,7 +145,7 @@ TEST(Grid, OfMorePlanesThanADispatchTakesIsFilledInSeveral) {
   scene::View view = view_of(builtin("sphere"), {8, 8});
   view.camera.eye = {0, 0, 0};
   view.camera.target = {0, 0, -1};
-  view.light.position = {0, 0, -3};
+  view.lights[0].position = {0, 0, -3};
   tests::look_into_frame(geometry, view, 8, [&](const frame::FrameInputs& inputs) {
     ShadowVolume volume(context.limits(), {.resolution = n, .populate = Populate::screen_space});
     EXPECT_EQ(volume.grid().windows().size(), 2u);

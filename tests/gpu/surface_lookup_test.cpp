@@ -98,11 +98,11 @@ TEST_P(SurfaceLookupOn, AFloorIsExactToOneCell) {
     const double x = glm::dot(from_light, axes.u), y = glm::dot(from_light, axes.f);
     const double theta = std::atan2(y, x);
     const double phi = std::atan2(std::hypot(x, y), -glm::dot(from_light, axes.axis));
-    // Whether a light ray within a cell of the pixel's agrees. A quarter of a cell more is for the slack of
-    // voxelization, which grows with the size of a triangle: that of the half-plane is 2000 m.
+    // Whether a light ray within a cell of the pixel's agrees. Three quarters more are for the slack of
+    // voxelization, 5e-6 of the size of a triangle: that of the half-plane is 2000 m.
     bool is_near = false;
-    for (double a = -1.25; a <= 1.25; a += 0.25) {
-      for (double b = -1.25; b <= 1.25; b += 0.25) {
+    for (double a = -1.75; a <= 1.75; a += 0.25) {
+      for (double b = -1.75; b <= 1.75; b += 0.25) {
         const double t = theta + a * theta_step, p = phi + b * phi_step;
         const glm::dvec3 ray =
             std::sin(p) * (std::cos(t) * axes.u + std::sin(t) * axes.f) - std::cos(p) * axes.axis;

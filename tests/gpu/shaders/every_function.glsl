@@ -4,10 +4,11 @@
 #include "frame/light_texture.glsl"
 #include "frame/shadow_cube.glsl"
 #include "frame/camera.glsl"
-#include "epipolar/grid.glsl"
+#include "epipolar/conservative.glsl"
 #include "media/medium.glsl"
+#include "media/row_end.glsl"
 
-CONST uint k_outputs = 61u;
+CONST uint k_outputs = 120u;
 
 struct Inputs {
   vec4 a;  // axis, D
@@ -31,6 +32,22 @@ FUNCTION void put(INOUT(Outputs) outputs, INOUT(uint) at, IN(vec3) value) {
 FUNCTION void put(INOUT(Outputs) outputs, INOUT(uint) at, float value) {
   outputs.values[at] = value;
   at += 1u;
+}
+
+FUNCTION void put(INOUT(Outputs) outputs, INOUT(uint) at, IN(PlaneSpan) span) {
+  put(outputs, at, float(span.first));
+  put(outputs, at, float(span.count));
+  put(outputs, at, float(span.wrapped_first));
+  put(outputs, at, float(span.wrapped_count));
+}
+
+FUNCTION void put(INOUT(Outputs) outputs, INOUT(uint) at, IN(SlabOutline) outline) {
+  for (int i = 0; i < 5; ++i) {
+    put(outputs, at, outline.segment[i].x);
+    put(outputs, at, outline.segment[i].y);
+    put(outputs, at, outline.segment[i].z);
+    put(outputs, at, outline.segment[i].w);
+  }
 }
 
 FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
@@ -91,10 +108,10 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   put(outputs, at, theta_of(space, ray));
   put(outputs, at, phi_at(space, angle, t));  // 5
   EyeAngle given;
-  given.sine = sin(alpha);
-  given.cosine = cos(alpha);
+  given.sine = sine(alpha);
+  given.cosine = cosine(alpha);
   put(outputs, at, distance_from_eye(space, given, phi));
-  put(outputs, at, alpha_at(space, sin(phi), cos(phi), t));
+  put(outputs, at, alpha_at(space, sine(phi), cosine(phi), t));
   put(outputs, at, light_ray(space, theta, phi));
   put(outputs, at, view_ray_of(space, alpha, theta));
   put(outputs, at, path_length(space, complement, phi));  // 14
@@ -126,7 +143,8 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   put(outputs, at, centre.y);
   put(outputs, at, view_ray(camera, vec2(100.0f * alpha, 60.0f * phi)));  // 46
   put(outputs, at, quarter_pixel(camera));
-  put(outputs, at, eye_relative(camera, 100.0f * ray + 0.01f * any_vector));
+  PRECISE vec3 world = 100.0f * ray + 0.01f * any_vector;
+  put(outputs, at, eye_relative(camera, world));
   put(outputs, at, ray_triangle_distance(l, t * l + space.u, t * l - 2.0f * space.f, 2.0f * t * l - space.u + space.f));  // 54
   PhiCells cells;
   cells.phi_max = complement;
@@ -137,6 +155,53 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   vec2 place = light_texture_place(theta, 0.5f * theta);
   put(outputs, at, place.x);
   put(outputs, at, place.y);
+  TexelBlend blend = light_texture_blend(place, ivec2(40, 20));
+  put(outputs, at, vec3(blend.from.x, blend.from.y, 0.0f) + vec3(blend.weight.x, blend.weight.y, 0.0f));
+  put(outputs, at, vec3(blend.to.x, blend.to.y, 0.0f) + vec3(blend.weight.x, blend.weight.y, 0.0f));
+
+  put(outputs, at, sine(4.0f * theta));
+  put(outputs, at, cosine(4.0f * theta));
+  put(outputs, at, sine_of_quarter(0.5f * theta));
+  put(outputs, at, angle_of(ray.x, ray.y));
+  put(outputs, at, ordered_dot(ray, l));
+  put(outputs, at, unit_or(any_vector, l));
+  put(outputs, at, plane_of_theta(space, theta));
+  put(outputs, at, theta_of_plane(space, 100.0f * alpha));
+  put(outputs, at, theta_from_middle(space, theta));
+  put(outputs, at, theta_to_centre(space, theta, 10u));
+  put(outputs, at, phi_to_row_end(space, angle, ray, vec4(-ray + 0.3f * l, t), 0.002f, -0.001f));
+
+  // A triangle in front of the eye, of the size of its distance.
+  vec3 a = t * ray;
+  vec3 b = a + 0.5f * t * space.u;
+  vec3 c = a + 0.7f * t * space.f + 0.1f * t * l;
+  put(outputs, at, float(slabs_per_plane(space)));
+  float slack = position_slack(space, a, b, c);
+  put(outputs, at, slack);
+  put(outputs, at, distance_to_segment(vec2(ray.x, ray.y), vec2(any_vector.x, any_vector.y)));
+  put(outputs, at, wrapped(2.0f * theta));
+  VoxelTriangle triangle = voxel_triangle(space, a, b, c, 333u);
+  put(outputs, at, triangle.a);
+  put(outputs, at, triangle.planes);
+  put(outputs, at, float(plane_at(triangle.planes, 0u)));
+  vec2 range = clip(vec2(0.0f, 1.0f), ray.x, g);
+  put(outputs, at, range.x);
+  put(outputs, at, range.y);
+  float middle = theta_of_plane(space, float(plane_at(triangle.planes, plane_count(triangle.planes) / 2u)) + 0.5f);
+  SlabPart part = part_in_slab(space, cells, triangle, middle - 0.01f, middle + 0.01f);
+  put(outputs, at, part.outline);
+  put(outputs, at, curvature_slack(part.outline, 0.01f));
+  vec2 orders = phi_order_bounds(part.outline, slack);
+  put(outputs, at, orders.x);
+  put(outputs, at, orders.y);
+  put(outputs, at, float(part.first_ray));
+  put(outputs, at, float(part.end_ray));
+  vec2 from_ray = boundary_ray(cells, 0u);
+  vec2 to_ray = boundary_ray(cells, 511u);
+  put(outputs, at, to_ray.x);
+  put(outputs, at, to_ray.y);
+  put(outputs, at, least_alpha_order(part.outline, from_ray, to_ray, space.distance, slack));
+  put(outputs, at, float(first_touched_cell(space, part, from_ray, to_ray, 512u)));
 }
 
 #endif

@@ -101,6 +101,14 @@ TEST(RayTriangleDistance, IsTheDistanceToThePlane) {
   }
 }
 
+TEST(RayTriangleDistance, TakesNoQuotientThatOverflows) {
+  // Edge-on but for a digit far beyond those of the plane's distance.
+  const glm::vec3 a(-1, 1, 5), b(1, 1, 5), c(0, 1, 9);
+  for (const float slope : {1e-30f, -1e-30f, 1e-38f, 0.0f}) {
+    EXPECT_EQ(ray_triangle_distance({0, slope, 1}, a, b, c), 5.0f) << slope;
+  }
+}
+
 TEST(RayTriangleDistance, StaysWithinATriangleSeenEdgeOn) {
   const glm::vec3 a(-1, 0, 5), b(1, 0, 5), c(0, 0, 9);
   // In the plane of the ray, and a ray that just misses the plane.
