@@ -4,7 +4,7 @@ build_packages=(
   ca-certificates ccache cmake g++ glslang-tools libcli11-dev libegl-dev libegl1 libembree-dev libepoxy-dev libfmt-dev
   libgl1-mesa-dri libglm-dev libopenexr-dev libpng-dev libtinygltf-dev libtinyobjloader-dev
   libtomlplusplus-dev ninja-build nlohmann-json3-dev pkg-config)
-test_packages=(libgmock-dev libgtest-dev)
+test_packages=(libgmock-dev libgtest-dev mesa-vulkan-drivers)
 
 # Installs the Debian packages that are missing; without root, says which those are.
 install_packages() {
@@ -23,9 +23,16 @@ install_packages() {
   DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
 }
 
-# build PRESET TARGET: configures once, builds what changed, and says so only where there is something to do.
+# build PRESET airlight|all: the program alone, or with its tests. Configures where there is no build yet, or one without the
+# tests asked for (a build that has tests keeps them), builds what changed, and says so only where there is something to do.
 build() {
-  [ -f "build/$1/build.ninja" ] || { echo "Configuring build/$1" >&2; cmake --preset "$1" >/dev/null; }
+  local tests=OFF known="^build $2:" cached=.
+  if [ "$2" = all ]; then tests=ON known="^build tests/all:" cached="^AIRLIGHT_TESTS:BOOL=ON"; fi
+  # Configuring can have failed half-way: the cache is written then, build.ninja is not.
+  if ! grep -qs "$known" "build/$1/build.ninja" || ! grep -qs "$cached" "build/$1/CMakeCache.txt"; then
+    echo "Configuring build/$1" >&2
+    cmake --preset "$1" -D AIRLIGHT_TESTS=$tests >/dev/null
+  fi
   # Progress lines become one, and there is none where nothing is built.
   ninja -C "build/$1" "$2" 2>&1 | awk -v preset="build/$1" '
     /^\[/ { reconfigures = /Re-(checking|running)/; if (!reconfigures && !said++) print "Building " preset; next }

@@ -17,6 +17,7 @@
 #include "cli/schema.h"
 #include "quality/compare.h"
 #include "quality/image_io.h"
+#include "support/paths.h"
 
 namespace airlight {
 namespace {

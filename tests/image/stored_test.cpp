@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "quality/image_io.h"
+#include "support/paths.h"
 #include "support/render.h"
 #include "support/scenes.h"
 

@@ -1,13 +1,39 @@
 #pragma once
 
+#include <cstdlib>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include <gtest/gtest.h>
+
 #include "gpu/context.h"
 
 namespace airlight::tests {
 
+/// Keeps the GL context of this test program and ends it before main() does: a driver whose threads still
+/// work while static objects are destroyed, its own among them, may crash or hang.
+class ContextEnvironment : public testing::Environment {
+ public:
+  void TearDown() override { context.reset(); }
+  std::unique_ptr<gpu::Context> context;
+};
+
+inline auto* const context_environment =
+    static_cast<ContextEnvironment*>(testing::AddGlobalTestEnvironment(new ContextEnvironment));
+
 /// The GL context of this test program: made once, by whoever asks first.
+/// @throws std::runtime_error where it is not on the driver that AIRLIGHT_RENDERER asks for by a part of its
+/// name.
 inline gpu::Context& gpu_context() {
-  static gpu::Context context(gpu::DebugOutput::synchronous);
-  return context;
+  std::unique_ptr<gpu::Context>& context = context_environment->context;
+  if (!context) context = std::make_unique<gpu::Context>(gpu::DebugOutput::synchronous);
+  const char* asked = std::getenv("AIRLIGHT_RENDERER");
+  const std::string& renderer = context->device().renderer;
+  if (asked && renderer.find(asked) == std::string::npos) {
+    throw std::runtime_error("the renderer is " + renderer + ", not " + asked);
+  }
+  return *context;
 }
 
 }  // namespace airlight::tests

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/error.h"
+#include "support/paths.h"
 
 namespace airlight::scene {
 namespace {

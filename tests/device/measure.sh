@@ -1,0 +1,114 @@
+#!/bin/sh
+# Tests and measures Airlight on this machine's OpenGL driver: `./measure.sh [FIGURES.md]`, in a folder that
+# tests/device/pack.sh made. Writes one file as it goes, so that what was measured before an interruption is there.
+# SIZES="512 1024": the images' sides. LIMIT=300: seconds that one program may take.
+# Exit: 0 done, 1 a test failed or a program did; the file says which.
+pack=$(cd "$(dirname "$0")" && pwd)
+figures=${1:-figures.md}
+case $figures in /*) ;; *) figures=$PWD/$figures ;; esac
+sizes=${SIZES:-512 1024}
+limit=${LIMIT:-300}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+
+. "$pack/bin/libraries.sh"
+PATH=$pack/bin:$PATH
+# What the tests read: see tests/support/paths.h and shared.h.
+export AIRLIGHT_ASSETS="$pack/assets" AIRLIGHT_BINARY="$pack/bin/airlight" AIRLIGHT_SCHEMA="$pack/results.schema.json" \
+  AIRLIGHT_EXPECTED_IMAGES="$pack/expected" AIRLIGHT_SHARED="$pack"
+status=0
+say() { printf '%s\n' "$*" | tee -a "$figures"; }
+now() { date +%s; }
+
+: >"$figures" || exit 1
+say "# Airlight $(cat "$pack/commit") on $(airlight info | sed -n 's/^renderer *//p')"
+say
+say '```'
+airlight info 2>&1 | tee -a "$figures"
+say "CPU                       $(sed -n 's/^model name.*: //p' /proc/cpuinfo | sort | uniq -c | sed 's/^ *//; s/ / × /')"
+say "kernel                    $(uname -sr)"
+say "C library                 $(getconf GNU_LIBC_VERSION 2>/dev/null), the pack's $(cat "$pack/lib/c/version")"
+say "loader                    $AIRLIGHT_LOADER"
+say "libraries                 $AIRLIGHT_LIBRARIES"
+say '```'
+airlight info >/dev/null 2>&1 || { say "No OpenGL 4.5 context: nothing more can be measured."; exit 1; }
+
+say
+say "## Tests"
+say
+say "| program | passed | failed | skipped | s | exit |"
+say "|---|---:|---:|---:|---:|---:|"
+for program in "$pack"/bin/*_test; do
+  name=$(basename "$program")
+  start=$(now)
+  timeout "$limit" "$program" >"$name.log" 2>&1
+  code=$?
+  [ "$code" -eq 0 ] || status=1
+  # A test that was skipped counts as passed in GoogleTest's own sum.
+  skipped=$(grep -c '^\[  SKIPPED \].* ms)$' "$name.log")
+  passed=$(grep -c '^\[       OK \]' "$name.log")
+  failed=$(grep -c '^\[  FAILED  \].* ms)$' "$name.log")
+  say "| $name | $passed | $failed | $skipped | $(($(now) - start)) | $code |"
+done
+say
+say "Exit 124: the $limit s that one program may take were over."
+# What the failed ones said, and the end of a program that broke off.
+for log in *_test.log; do
+  awk '/^\[ RUN/ { text = "" } { text = text $0 "\n" } /^\[  FAILED  \].* ms\)$/ { printf "%s", text }' "$log" >failures
+  grep -qE '^\[==========\].* ran\.' "$log" || tail -n 20 "$log" >>failures
+  if [ -s failures ]; then
+    say
+    say "### $(basename "$log" .log)"
+    say
+    say '```'
+    cut -c1-400 failures | head -n 200 | tee -a "$figures"
+    say '```'
+  fi
+done
+
+say
+say "## Frames, stages and errors"
+# compare SCENE OPTIONS...: the command, and the table that it prints.
+compare() {
+  say
+  say '```'
+  say "\$ airlight compare $*"
+  (cd "$pack" && timeout "$limit" airlight compare "$@" --quiet -o "$work/compare" 2>&1) >table
+  code=$?
+  tee -a "$figures" <table
+  [ "$code" -eq 0 ] || { status=1; say "exit $code"; }
+  say '```'
+  rm -rf "$work/compare"
+}
+volumes=vsv,vsv:scan=column,vsv:scan=multi-pass,vsv:integral=riemann,vsv:integral=factored
+volumes=$volumes,vsv:populate=conservative,vsv:populate=screen-space
+for size in $sizes; do
+  common="--size ${size}x$size --reference-samples 128 --frames 5 --volume $volumes"
+  # shellcheck disable=SC2086  # several words
+  {
+    compare window $common,reference-march
+    compare toroid $common
+    [ ! -f "$pack/scenes/victorian_fence_19k.glb" ] ||
+      compare scenes/victorian_fence_19k.glb --eye 0.3,0.5,3 --target 0,0.4,0 --fov 45 --light-position=-0.2,0.7,-1 \
+        --intensity 8 --sigma-s 0.25 $common
+    [ ! -f "$pack/scenes/cornell_box_36.glb" ] ||
+      compare scenes/cornell_box_36.glb --light-position 0,1.5,0 --intensity 5 --sigma-s 0.2 $common
+    [ ! -f "$pack/scenes/sponza_262k.glb" ] ||
+      compare scenes/sponza_262k.glb --eye=-12,3,-0.5 --target 0,5,0 --fov 60 --light-position 3,7,0 --intensity 300 \
+        --sigma-s 0.04 --sigma-a 0.01 $common
+  }
+  # A surface shadow by the volume's bits, and an empty frame, whose cost every method shares.
+  compare window --size "${size}x$size" --reference-samples 128 --volume none --surface shadow-map,vsv,none
+done
+
+say
+say "## Functions"
+say
+say '```'
+timeout "$limit" stdbuf -oL airlight_tables >table 2>&1
+code=$?
+tee -a "$figures" <table
+[ "$code" -eq 0 ] || { status=1; say "exit $code"; }
+say '```'
+exit $status
