@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 
 #include "epipolar/surface_lookup.h"
-#include "quality/numbers.h"
 #include "scene/components.h"
 #include "scene/error.h"
+#include "scene/numbers.h"
 #include "surface_shadows/shadow_map_lookup.h"
 
 namespace airlight::quality {
@@ -19,6 +19,8 @@ namespace {
 
 using scene::Error;
 using scene::ExitCode;
+using scene::parse_count;
+using scene::split;
 
 /// Words that stand for the values of an enumeration, in its order.
 template <std::size_t n>
