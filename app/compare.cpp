@@ -8,8 +8,8 @@
 
 #include "app/commands.h"
 #include "app/output.h"
-#include "quality/numbers.h"
 #include "quality/report.h"
+#include "scene/numbers.h"
 
 namespace airlight::app {
 namespace {
@@ -42,10 +42,10 @@ void compare(const Options& options) {
   auto surfaces = parse_surfaces(options);
   const int samples = reference_samples(options);
   const int shadow_map = shadow_map_size(options);
-  const int frames = quality::parse_count("--frames", options.get("frames").value_or("5"));
+  const int frames = scene::parse_count("--frames", options.get("frames").value_or("5"));
   std::optional<double> limit;
   if (const auto text = options.get("max-error")) {
-    limit = quality::parse_number("--max-error", *text);
+    limit = scene::parse_number("--max-error", *text);
     if (*limit < 0.0) throw Error(ExitCode::usage, "--max-error", fmt::format("'{}' is negative", *text));
     if (std::none_of(volumes.begin(), volumes.end(),
                      [](const auto& choice) { return choice.method->traits.is_judged(); })) {

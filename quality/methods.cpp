@@ -7,15 +7,16 @@
 #include "epipolar/surface_lookup.h"
 #include "frame/none.h"
 #include "media/vsv.h"
-#include "quality/numbers.h"
 #include "scene/components.h"
 #include "scene/error.h"
+#include "scene/numbers.h"
 #include "surface_shadows/shadow_map_lookup.h"
 
 namespace airlight::quality {
 
 using scene::Error;
 using scene::ExitCode;
+using scene::split;
 
 std::span<const VolumeMethod> volume_methods() {
   static const std::vector<VolumeMethod> methods = {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "quality/pictures.h"
-#include "scene/light_texture.h"
+#include "scene/view_fields.h"
 
 namespace airlight::quality {
 namespace {
@@ -160,16 +160,25 @@ std::string run_section(const Run& run) {
          fmt::format("</div>\n<code>{}</code></section>\n", escape(run.command));
 }
 
+/// The fields of a part of the view.
+template <typename Thing>
+std::string definition(const char* term, const Thing& thing) {
+  std::string text;
+  scene::for_each_value(thing, [&](const scene::FieldInfo& field, const scene::FieldValue& value) {
+    text += fmt::format("{}{} {}{}{}", text.empty() ? "" : ", ", field.label, scene::text_of(value),
+                        field.unit.empty() ? "" : " ", field.unit);
+  });
+  return fmt::format("<dt>{}</dt><dd>{}</dd>\n", term, escape(text));
+}
+
 }  // namespace
 
 std::string report_html(const Comparison& comparison) {
   const TruthFigures& truth = comparison.truth;
   const scene::View& view = comparison.view;
-  const std::string light_texture =
-      view.lights[0].texture ? fmt::format(", textured by {}", escape(view.lights[0].texture->name())) : "";
-  const std::string rayleigh_weight = view.medium.phase == scene::PhaseFunction::hoffman_preetham
-                                          ? fmt::format(", rayleigh weight {}", view.medium.rayleigh_weight)
-                                          : "";
+  std::string fields = definition("image", view) + definition("camera", view.camera);
+  for (const scene::Light& light : view.lights) fields += definition("light", light);
+  fields += definition("medium", view.medium);
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<title>Airlight: "
       "{0}</title>\n{1}</head><body>\n"
@@ -178,25 +187,17 @@ std::string report_html(const Comparison& comparison) {
 
   // What was compared, where, and with what.
   html += fmt::format(
-      "<dl><dt>scene</dt><dd>{}, {} triangles, {} of zero area dropped</dd>\n<dt>image</dt><dd>{} × {} "
-      "pixels</dd>\n"
-      "<dt>camera</dt><dd>eye {} m, target {} m, up {}, {}° vertical</dd>\n"
-      "<dt>light</dt><dd>at {} m, {} W/sr{}</dd>\n<dt>medium</dt><dd>σ_s {} /m, σ_a {} /m, {}, g = "
-      "{}{}</dd>\n"
+      "<dl><dt>scene</dt><dd>{}, {} triangles, {} of zero area dropped</dd>\n{}"
       "<dt>device</dt><dd>{}, OpenGL {}, {} CPU cores; airlight {}</dd>\n"
       "<dt>reference</dt><dd>Embree ray tracing, {} samples a view ray, every change of visibility bisected: "
       "{:.1f} million rays in "
       "{:.0f} ms; own uncertainty {:.3g} % rrmse (against half as many samples); mean airlight {:.4g} W/(m² "
       "sr)</dd>\n"
       "<dt>exposure</dt><dd>{} of the PNG images{}; the EXR images hold radiance</dd>\n</dl>\n",
-      escape(comparison.scene), comparison.triangles, comparison.report.degenerate_triangles, view.size.x,
-      view.size.y, text_of(view.camera.eye), text_of(view.camera.target), text_of(view.camera.up),
-      view.camera.vertical_fov_degrees, text_of(view.lights[0].position), text_of(view.lights[0].intensity),
-      light_texture, text_of(view.medium.sigma_s), text_of(view.medium.sigma_a),
-      phase_name(view.medium.phase), view.medium.g, rayleigh_weight, escape(comparison.device.renderer),
-      escape(comparison.device.version), comparison.cores, version(), truth.samples,
-      static_cast<double>(truth.rays) * 1e-6, truth.ms, 100.0 * truth.self_error, truth.mean_airlight,
-      comparison.exposure.value,
+      escape(comparison.scene), comparison.triangles, comparison.report.degenerate_triangles, fields,
+      escape(comparison.device.renderer), escape(comparison.device.version), comparison.cores, version(),
+      truth.samples, static_cast<double>(truth.rays) * 1e-6, truth.ms, 100.0 * truth.self_error,
+      truth.mean_airlight, comparison.exposure.value,
       comparison.exposure.is_automatic
           ? ", chosen so that the 95th percentile of the reference maps to 0.8 of white, linear"
           : "");

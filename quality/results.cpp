@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/error.h"
-#include "scene/light_texture.h"
+#include "scene/view_fields.h"
 
 namespace airlight::quality {
 namespace {
@@ -22,41 +22,23 @@ Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-Json vector(glm::dvec3 v) {
-  return {v.x, v.y, v.z};
-}
-
-/// Single-precision values with the digits they have, not those of their conversion to double.
-Json vector(glm::vec3 v) {
-  return {std::stod(fmt::format("{}", v.x)), std::stod(fmt::format("{}", v.y)),
-          std::stod(fmt::format("{}", v.z))};
-}
-
 Json single(float value) {
   return std::stod(fmt::format("{}", value));
 }
 
+struct JsonOfField {
+  Json operator()(double v) const { return v; }
+  Json operator()(glm::dvec3 v) const { return {v.x, v.y, v.z}; }
+  Json operator()(const std::string& v) const { return v; }
+  Json operator()(glm::ivec2 v) const { return {v.x, v.y}; }
+  Json operator()(const std::shared_ptr<const scene::LightTexture>& v) const { return v->name(); }
+};
+
 Json view_json(const scene::View& view) {
-  const scene::Camera& camera = view.camera;
-  Json json = {{"size", {view.size.x, view.size.y}},
-               {"camera",
-                {{"name", camera.name},
-                 {"eye", vector(camera.eye)},
-                 {"target", vector(camera.target)},
-                 {"up", vector(camera.up)},
-                 {"fov", camera.vertical_fov_degrees}}},
-               {"light",
-                {{"name", view.lights[0].name},
-                 {"position", vector(view.lights[0].position)},
-                 {"intensity", vector(view.lights[0].intensity)}}},
-               {"medium",
-                {{"sigma_s", vector(view.medium.sigma_s)},
-                 {"sigma_a", vector(view.medium.sigma_a)},
-                 {"phase", phase_name(view.medium.phase)},
-                 {"g", single(view.medium.g)}}}};
-  if (view.lights[0].texture) json["light"]["texture"] = view.lights[0].texture->name();
-  if (view.medium.phase == scene::PhaseFunction::hoffman_preetham)
-    json["medium"]["rayleigh_weight"] = single(view.medium.rayleigh_weight);
+  Json json = {{"camera", {{"name", view.camera.name}}}, {"light", {{"name", view.lights[0].name}}}};
+  for_each_value_of_view(view, [&](const scene::FieldInfo& field, const scene::FieldValue& value) {
+    (field.group.empty() ? json : json[field.group])[field.key()] = std::visit(JsonOfField(), value);
+  });
   return json;
 }
 
@@ -136,29 +118,11 @@ std::string version() {
   return AIRLIGHT_VERSION;
 }
 
-std::string text_of(glm::dvec3 v) {
-  return fmt::format("{},{},{}", v.x, v.y, v.z);
-}
-
-std::string text_of(glm::vec3 v) {
-  return fmt::format("{},{},{}", v.x, v.y, v.z);
-}
-
 std::map<std::string, std::string> view_options(const scene::View& view) {
-  std::map<std::string, std::string> options = {{"size", fmt::format("{}x{}", view.size.x, view.size.y)},
-                                                {"eye", text_of(view.camera.eye)},
-                                                {"target", text_of(view.camera.target)},
-                                                {"up", text_of(view.camera.up)},
-                                                {"fov", fmt::format("{}", view.camera.vertical_fov_degrees)},
-                                                {"light-position", text_of(view.lights[0].position)},
-                                                {"intensity", text_of(view.lights[0].intensity)},
-                                                {"sigma-s", text_of(view.medium.sigma_s)},
-                                                {"sigma-a", text_of(view.medium.sigma_a)},
-                                                {"phase", phase_name(view.medium.phase)},
-                                                {"g", fmt::format("{}", view.medium.g)}};
-  if (view.lights[0].texture) options["light-texture"] = view.lights[0].texture->name();
-  if (view.medium.phase == scene::PhaseFunction::hoffman_preetham)
-    options["rayleigh-weight"] = fmt::format("{}", view.medium.rayleigh_weight);
+  std::map<std::string, std::string> options;
+  for_each_value_of_view(view, [&](const scene::FieldInfo& field, const scene::FieldValue& value) {
+    options.emplace(field.name, scene::text_of(value));
+  });
   return options;
 }
 

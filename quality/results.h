@@ -67,9 +67,6 @@ std::string results_table(const Comparison& comparison);
 /// A relative airlight error in percent; one that is not above the truth's own uncertainty reads "< that".
 std::string error_text(double rrmse, double self_error);
 
-/// The shortest decimal numbers that read back the same, separated by commas.
-std::string text_of(glm::dvec3 value);
-std::string text_of(glm::vec3 value);
 
 /// Every choice of a view under the name of the option that makes it.
 std::map<std::string, std::string> view_options(const scene::View& view);

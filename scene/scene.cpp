@@ -1,22 +1,20 @@
 #include "scene/scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "scene/error.h"
+#include "scene/view_fields.h"
 
 namespace airlight::scene {
 namespace {
 
 /// Squares of shorter distances vanish in single precision.
 constexpr double k_shortest_distance = 1e-18;  // [m]
-
-bool is_finite(glm::dvec3 v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 double largest(glm::dvec3 v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
@@ -26,23 +24,19 @@ std::string text_of(glm::dvec3 v) {
   return fmt::format("({:g}, {:g}, {:g})", v.x, v.y, v.z);
 }
 
-void check_point(ExitCode code, const std::string& where, glm::dvec3 point) {
-  if (!is_finite(point)) throw Error(code, where, fmt::format("{} is not finite", text_of(point)));
-  if (largest(point) > k_largest_coordinate)
-    throw Error(
-        code, where,
-        fmt::format("{} is farther than {:g} m from the origin", text_of(point), k_largest_coordinate));
-}
-
-void check_coefficient(const std::string& where, glm::dvec3 value) {
-  if (!is_finite(value) || std::min({value.x, value.y, value.z}) < 0.0)
-    throw Error(ExitCode::bad_file, where, fmt::format("{} is not finite and non-negative", text_of(value)));
+/// Checks each field by itself.
+template <typename Thing>
+void check_fields(ExitCode code, const std::string& where, const Thing& thing) {
+  for (const Field<Thing>& field : fields<Thing>()) {
+    const auto value = field.read(thing);
+    if (const auto wrong = value ? field.problem(*value) : std::nullopt)
+      throw Error(code, fmt::format("{}, {}", where, field.key()), wrong->problem, wrong->remedy);
+  }
 }
 
 void validate(const Light& light, glm::dvec3 eye) {
   const std::string where = light.name.empty() ? "light" : fmt::format("light '{}'", light.name);
-  check_point(ExitCode::bad_file, where + ", position", light.position);
-  check_coefficient(where + ", intensity", light.intensity);
+  check_fields(ExitCode::bad_file, where, light);
   if (glm::distance(light.position, eye) < k_shortest_distance)
     throw Error(ExitCode::bad_file, where, "it is at the eye, where the airlight is infinite",
                 "move the light or the camera");
@@ -57,26 +51,15 @@ Box bounds(const Geometry& geometry) {
   return box;
 }
 
-std::string phase_name(PhaseFunction phase) {
-  switch (phase) {
-    case PhaseFunction::isotropic:
-      return "isotropic";
-    case PhaseFunction::rayleigh:
-      return "rayleigh";
-    case PhaseFunction::henyey_greenstein:
-      return "henyey-greenstein";
-    case PhaseFunction::hoffman_preetham:
-      return "hoffman-preetham";
-  }
-  return {};
+std::span<const std::string_view> phase_names() {
+  static constexpr auto k_names =
+      std::to_array<std::string_view>({"isotropic", "rayleigh", "henyey-greenstein", "hoffman-preetham"});
+  return k_names;
 }
 
-PhaseFunction phase_of_name(const std::string& where, std::string_view name) {
-  using enum PhaseFunction;
-  for (PhaseFunction phase : {isotropic, rayleigh, henyey_greenstein, hoffman_preetham})
-    if (phase_name(phase) == name) return phase;
-  throw Error(ExitCode::usage, where, fmt::format("'{}' is unknown", name),
-              "use isotropic, rayleigh, henyey-greenstein or hoffman-preetham");
+std::string phase_name(PhaseFunction phase) {
+  const auto index = static_cast<std::size_t>(phase);
+  return index < phase_names().size() ? std::string(phase_names()[index]) : std::string();
 }
 
 bool has_g(PhaseFunction phase) {
@@ -87,14 +70,8 @@ CameraFrame camera_frame(const Camera& camera, glm::ivec2 image_size) {
   const std::string where = camera.name.empty() ? "camera" : fmt::format("camera '{}'", camera.name);
   const auto refuse = [&](const std::string& problem) -> Error { return {ExitCode::usage, where, problem}; };
 
-  if (image_size.x < 1 || image_size.y < 1)
-    throw refuse(fmt::format("an image of {}x{} has no pixels", image_size.x, image_size.y));
-  check_point(ExitCode::usage, where + ", eye", camera.eye);
-  check_point(ExitCode::usage, where + ", target", camera.target);
-  if (!is_finite(camera.up)) throw refuse(fmt::format("up {} is not finite", text_of(camera.up)));
-  if (!(camera.vertical_fov_degrees > 0.0 && camera.vertical_fov_degrees < 180.0))
-    throw refuse(fmt::format("a vertical field of view of {:g} degrees is not between 0 and 180",
-                             camera.vertical_fov_degrees));
+  if (const auto wrong = field<View>("size").problem(image_size)) throw refuse(wrong->problem);
+  check_fields(ExitCode::usage, where, camera);
 
   const glm::dvec3 view = camera.target - camera.eye;
   // Scaling first keeps the squares of very short and very long vectors from vanishing or overflowing.
@@ -121,17 +98,7 @@ void validate(const View& view) {
   if (view.lights.empty()) throw Error(ExitCode::bad_file, "view", "it has no light");
   for (const Light& light : view.lights) validate(light, view.camera.eye);
 
-  const Medium& medium = view.medium;
-  check_coefficient("medium, sigma-s", medium.sigma_s);
-  check_coefficient("medium, sigma-a", medium.sigma_a);
-  if (!(std::abs(medium.g) < 1.0f))
-    throw Error(ExitCode::bad_file, "medium, g", fmt::format("{:g} is not between -1 and 1", medium.g));
-  if (!(medium.rayleigh_weight >= 0.0f && medium.rayleigh_weight <= 1.0f))
-    throw Error(ExitCode::bad_file, "medium, rayleigh-weight",
-                fmt::format("{:g} is not between 0 and 1", medium.rayleigh_weight));
-  if (medium.phase > PhaseFunction::hoffman_preetham)
-    throw Error(ExitCode::bad_file, "medium, phase",
-                fmt::format("there is no phase function {}", static_cast<std::uint32_t>(medium.phase)));
+  check_fields(ExitCode::bad_file, "medium", view.medium);
 }
 
 void override_albedo(Geometry& geometry, glm::vec3 albedo) {

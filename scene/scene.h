@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -96,11 +97,11 @@ enum class PhaseFunction : std::uint32_t {
   hoffman_preetham = 3,
 };
 
-/// The name that users know it by.
-std::string phase_name(PhaseFunction phase);
+/// The names that users know them by, in their order.
+std::span<const std::string_view> phase_names();
 
-/// @throws Error (usage) that names `where` and the phase functions, unless `name` is one of them
-PhaseFunction phase_of_name(const std::string& where, std::string_view name);
+/// Empty for what is no phase function.
+std::string phase_name(PhaseFunction phase);
 
 /// Whether it has a mean cosine g to set.
 bool has_g(PhaseFunction phase);

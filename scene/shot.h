@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "scene/scene.h"
+#include "scene/view_fields.h"
 
 namespace airlight::scene {
 
@@ -14,14 +15,15 @@ namespace airlight::scene {
 ///     triangles = 20000          # of a built-in scene whose count can be set
 ///     exposure = 4.0             # of PNG previews
 ///     albedo = [0.5, 0.5, 0.5]   # of every surface; one number means grey
-///     [camera]                   # a camera of the scene by its name, or eye and target [m]
+///     [camera]                   # name = "NAME" of one of the scene's, or eye and target [m]
 ///     eye = [0, 1, 4]
 ///     target = [0, 1, 0]
 ///     up = [0, 1, 0]
 ///     fov = 38                   # vertical [degrees]
-///     [light]                    # a light of the scene by its name, or position [m] and intensity [W/sr]
+///     [light]                    # name = "NAME" of one of the scene's, or position [m] and intensity [W/sr]
 ///     position = [0, 1.85, 0]
 ///     intensity = [1, 0.86, 0.68]
+///     texture = "lantern.exr"    # what it radiates by direction, relative to the shot
 ///     [medium]
 ///     sigma_s = 0.25             # [1/m]
 ///     sigma_a = 0.0
@@ -29,11 +31,14 @@ namespace airlight::scene {
 ///     g = 0.5
 ///     rayleigh_weight = 0.5      # with phase = "hoffman-preetham"
 ///
-/// Everything but `scene` may be left out. Keys mean what the command line's options of these names mean.
+/// Everything but `scene` may be left out. Keys mean what the command line's options of these names mean; a
+/// camera or a light without a name of its own is named by its number from 0, as in name = "0".
 /// @param triangles asked for in place of the shot's own
+/// @param read_light_texture without it, a shot that names a texture is refused
 /// @returns the scene; its first camera and light, its medium and its exposure are the shot's
 /// @throws Error (bad_file) with file and line, also for what `import_scene` refuses and for a view that
 /// `validate` refuses; (usage) where `triangles` cannot be
-Scene load_shot(const std::filesystem::path& file, std::optional<std::size_t> triangles = {});
+Scene load_shot(const std::filesystem::path& file, std::optional<std::size_t> triangles = {},
+                const LightTextureReader& read_light_texture = {});
 
 }  // namespace airlight::scene

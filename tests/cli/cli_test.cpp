@@ -17,6 +17,7 @@
 #include "cli/schema.h"
 #include "quality/compare.h"
 #include "quality/image_io.h"
+#include "scene/view_fields.h"
 #include "support/paths.h"
 
 namespace airlight {
@@ -126,6 +127,16 @@ TEST_F(Commands, HelpAndVersionAreData) {
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.out, HasSubstr("airlight"));
     EXPECT_THAT(result.err, IsEmpty());
+  }
+}
+
+TEST_F(Commands, HelpExplainsEveryFieldOfAView) {
+  for (const char* command : {"render", "compare"}) {
+    const std::string help = airlight({command, "--help"}).out;
+    for (const scene::FieldInfo* field : scene::every_field()) {
+      EXPECT_THAT(help, HasSubstr(fmt::format("--{} {} ", field->name, field->placeholder)));
+      EXPECT_THAT(help, HasSubstr(field->help()));
+    }
   }
 }
 
@@ -480,6 +491,20 @@ TEST_F(TexturedLight, IsComparedByTheMethodsThatCanTakeIt) {
   EXPECT_THAT(read_text(file("out/report.html")), HasSubstr("textured by light.exr"));
 }
 
+TEST_F(TexturedLight, OfAShotIsThatOfTheOption) {
+  fs::create_directory(file("shots"));
+  std::ofstream(file("shots/lantern.toml")) << "scene = 'cornell'\n[light]\ntexture = '../light.exr'\n";
+  const Image shot = render({"shots/lantern.toml", "--volume", "vsv:integral=riemann"});
+  EXPECT_EQ(shot.channels, render({"--light-texture", "light.exr"}).channels);
+  // As seen from where the program ran.
+  EXPECT_EQ(shot.metadata.at("airlight.light-texture"), "shots/../light.exr");
+
+  std::ofstream(file("dark.toml")) << "scene = 'cornell'\n[light]\ntexture = 'nosuch.exr'\n";
+  const Result result = airlight({"render", "dark.toml", "-o", "x.exr"});
+  expect_one_line_error(result, 3);
+  EXPECT_THAT(result.err, HasSubstr("dark.toml, line 3, light.texture: nosuch.exr"));
+}
+
 TEST_F(TexturedLight, IsRefusedByTheOthersBeforeTheDriverIsWoken) {
   for (const Words& words : {Words{"--volume", "vsv"},
                              {"--volume", "vsv:integral=factored"},
@@ -621,6 +646,17 @@ TEST_F(Compare, ResultsFollowTheirSchema) {
        "--surface", "none,shadow-map,vsv,reference", "--debug"});
   EXPECT_THAT(tests::schema_violations(results, schema), IsEmpty());
   EXPECT_EQ(results["runs"].size(), 32u);
+
+  // Every field of a view is documented.
+  const Json& view = schema.at("properties").at("view").at("properties");
+  scene::View whole;
+  whole.lights[0].texture =
+      std::make_shared<const scene::LightTexture>("", glm::ivec2(1), std::vector<glm::vec3>(1));
+  whole.medium.phase = scene::PhaseFunction::hoffman_preetham;
+  for_each_value_of_view(whole, [&](const scene::FieldInfo& field, const scene::FieldValue&) {
+    const Json& group = field.group.empty() ? view : view.at(std::string(field.group)).at("properties");
+    EXPECT_TRUE(group.contains(field.key())) << field.name;
+  });
 
   // The check itself sees what is missing, what is not documented, and what is of the wrong type.
   Json broken = results;

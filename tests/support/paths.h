@@ -20,3 +20,4 @@ inline std::filesystem::path path(const char* variable, const char* built) {
 #define AIRLIGHT_EXPECTED_IMAGES \
   airlight::tests::path("AIRLIGHT_EXPECTED_IMAGES", AIRLIGHT_BUILT_EXPECTED_IMAGES)
 #define AIRLIGHT_SCHEMA airlight::tests::path("AIRLIGHT_SCHEMA", AIRLIGHT_BUILT_SCHEMA)
+#define AIRLIGHT_SHOT_HEADER airlight::tests::path("AIRLIGHT_SHOT_HEADER", AIRLIGHT_BUILT_SHOT_HEADER)

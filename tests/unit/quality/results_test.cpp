@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/error.h"
+#include "scene/view_fields.h"
 
 namespace airlight::quality {
 namespace {
@@ -106,6 +107,39 @@ TEST(ViewOptions, NameTheWeightOfAPhaseFunctionThatHasOne) {
   EXPECT_EQ(view_options(comparison.view).at("phase"), "hoffman-preetham");
   EXPECT_EQ(view_options(comparison.view).at("rayleigh-weight"), "0.3");
   EXPECT_EQ(json::parse(results_json(comparison))["view"]["medium"]["rayleigh_weight"], 0.3);
+}
+
+TEST(View, HasEveryFieldInMetadataAndResults) {
+  Comparison comparison = two_runs();
+  scene::View& view = comparison.view;
+  view.lights[0].texture =
+      std::make_shared<const scene::LightTexture>("a.exr", glm::ivec2(1), std::vector<glm::vec3>(1));
+  view.medium.phase = scene::PhaseFunction::hoffman_preetham;
+  const auto options = view_options(view);
+  const json results = json::parse(results_json(comparison))["view"];
+  std::size_t count = 0;
+  const auto look_for = [&](auto fields) {
+    for (const scene::FieldInfo& field : fields) {
+      EXPECT_TRUE(options.contains(std::string(field.name))) << field.name;
+      const json& group = field.group.empty() ? results : results.at(std::string(field.group));
+      EXPECT_TRUE(group.contains(field.key())) << field.name;
+      ++count;
+    }
+  };
+  look_for(scene::fields<scene::Camera>());
+  look_for(scene::fields<scene::Light>());
+  look_for(scene::fields<scene::Medium>());
+  look_for(scene::fields<scene::View>());
+  EXPECT_EQ(options.size(), count);
+  EXPECT_EQ(results["light"]["texture"], "a.exr");
+  EXPECT_EQ(results["size"], (json{512, 512}));
+  EXPECT_EQ(results["camera"]["target"], (json{0.0, 0.0, -1.0}));
+}
+
+TEST(View, HasNoFieldsThatItsMediumHasNot) {
+  Comparison comparison = two_runs();
+  EXPECT_FALSE(view_options(comparison.view).contains("g"));
+  EXPECT_FALSE(json::parse(results_json(comparison))["view"]["medium"].contains("g"));
 }
 
 TEST(WriteText, NamesTheFileThatCannotBeWritten) {

@@ -110,12 +110,12 @@ TEST(CameraFrame, RefusesWhatIsNoView) {
   expect_refused("up is the zero vector", {1, 1}, [](Camera& c) { c.up = {0, 0, 0}; });
   expect_refused("up is parallel to the view", {1, 1}, [](Camera& c) { c.up = {0, 0, 2}; });
   expect_refused("up is parallel to the view", {1, 1}, [](Camera& c) { c.up = {1e-12, 0, -2}; });
-  expect_refused("up (0, nan, 0) is not finite", {1, 1}, [](Camera& c) { c.up.y = k_nan; });
-  expect_refused("eye: (nan, 0, 0) is not finite", {1, 1}, [](Camera& c) { c.eye.x = k_nan; });
-  expect_refused("target: (0, 0, inf) is not finite", {1, 1}, [](Camera& c) { c.target.z = k_infinity; });
+  expect_refused("camera 'main', up: nan is not finite", {1, 1}, [](Camera& c) { c.up.y = k_nan; });
+  expect_refused("camera 'main', eye: nan is not finite", {1, 1}, [](Camera& c) { c.eye.x = k_nan; });
+  expect_refused("target: inf is not finite", {1, 1}, [](Camera& c) { c.target.z = k_infinity; });
   expect_refused("farther than 1e+18 m", {1, 1}, [](Camera& c) { c.target.z = -1e19; });
   for (double fov : {0.0, -1.0, 180.0, k_nan})
-    expect_refused("field of view", {1, 1}, [&](Camera& c) { c.vertical_fov_degrees = fov; });
+    expect_refused("fov", {1, 1}, [&](Camera& c) { c.vertical_fov_degrees = fov; });
 }
 
 TEST(Validate, AcceptsAView) {
@@ -142,22 +142,22 @@ TEST(Validate, RefusesWhatNoMethodCanRender) {
   expect_refused(bad, "at the eye, where the airlight is infinite",
                  [](View& v) { v.lights[0].position = v.camera.eye; });
   expect_refused(bad, "at the eye", [](View& v) { v.lights[0].position = v.camera.eye + glm::dvec3(1e-19); });
-  expect_refused(bad, "light, position: (0, nan, -3)", [](View& v) { v.lights[0].position.y = k_nan; });
+  expect_refused(bad, "light, position: nan", [](View& v) { v.lights[0].position.y = k_nan; });
   expect_refused(bad, "farther than", [](View& v) { v.lights[0].position.y = -2e18; });
-  expect_refused(bad, "light 'sun', intensity: (1, -1, 1)", [](View& v) {
+  expect_refused(bad, "light 'sun', intensity: it must not be negative", [](View& v) {
     v.lights[0].name = "sun";
     v.lights[0].intensity.y = -1.0f;
   });
   expect_refused(bad, "intensity",
                  [](View& v) { v.lights[0].intensity.z = std::numeric_limits<float>::infinity(); });
-  expect_refused(bad, "sigma-s", [](View& v) { v.medium.sigma_s.x = -0.1f; });
-  expect_refused(bad, "sigma-s", [&](View& v) { v.medium.sigma_s.z = k_nan_f; });
-  expect_refused(bad, "sigma-a", [](View& v) { v.medium.sigma_a.y = -0.1f; });
+  expect_refused(bad, "medium, sigma_s", [](View& v) { v.medium.sigma_s.x = -0.1f; });
+  expect_refused(bad, "medium, sigma_s", [&](View& v) { v.medium.sigma_s.z = k_nan_f; });
+  expect_refused(bad, "medium, sigma_a", [](View& v) { v.medium.sigma_a.y = -0.1f; });
   for (float g : {1.0f, -1.0f, 2.0f, k_nan_f})
     expect_refused(bad, "medium, g", [&](View& v) { v.medium.g = g; });
   for (float weight : {-0.1f, 1.1f, k_nan_f})
-    expect_refused(bad, "rayleigh-weight", [&](View& v) { v.medium.rayleigh_weight = weight; });
-  expect_refused(bad, "phase function 7", [](View& v) { v.medium.phase = static_cast<PhaseFunction>(7); });
+    expect_refused(bad, "medium, rayleigh_weight", [&](View& v) { v.medium.rayleigh_weight = weight; });
+  expect_refused(bad, "medium, phase", [](View& v) { v.medium.phase = static_cast<PhaseFunction>(7); });
   expect_refused(ExitCode::usage, "no pixels", [](View& v) { v.size.x = 0; });
 }
 

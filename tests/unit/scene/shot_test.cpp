@@ -184,7 +184,7 @@ TEST_F(Shot, RefusesValuesThatCannotBe) {
   expect_error("scene = 'models/one.obj'\n[light]\nintensity = 1\n",
                "line 3, light.intensity: the scene has no light");
   expect_error(scene + "[medium]\nsigma_a = inf\n", "line 3, medium.sigma_a: inf is not finite");
-  expect_error(scene + "[medium]\nphase = 'mie'\n", "line 3, medium.phase: phase: 'mie' is unknown");
+  expect_error(scene + "[medium]\nphase = 'mie'\n", "line 3, medium.phase: 'mie' is unknown");
   expect_error(scene + "[medium]\nphase = 'henyey-greenstein'\ng = 1\n",
                "line 4, medium.g: 1 is not between");
   expect_error(scene + "[medium]\nphase = 'hoffman-preetham'\nrayleigh_weight = 2\n",
@@ -192,6 +192,40 @@ TEST_F(Shot, RefusesValuesThatCannotBe) {
   expect_error(scene + "[medium]\nrayleigh_weight = 0.5\n",
                "line 3, medium.rayleigh_weight: the phase function isotropic mixes nothing");
   expect_error(scene + "[medium]\ng = 0.5\n", "line 3, medium.g: the phase function isotropic has no g");
+}
+
+TEST_F(Shot, NamesACameraOrALightByItsNumberToo) {
+  const Scene scene = load("scene = 'cornell'\n[camera]\nname = '0'\nfov = 50\n[light]\nname = '0'\n");
+  EXPECT_EQ(scene.cameras.at(0).name, "front");
+  EXPECT_EQ(scene.lights.at(0).name, "ceiling");
+  expect_error("scene = 'cornell'\n[light]\nname = '1'\n",
+               "line 3, light.name: the scene has no '1'; it has 'ceiling' (0)");
+}
+
+TEST_F(Shot, HasALightTextureThatLiesBesideIt) {
+  const auto file = write("s.toml", "scene = 'cornell'\n[light]\ntexture = 'lights/lantern.exr'\n");
+  const auto reader = [](const std::filesystem::path& name) {
+    return LightTexture(name.string(), {1, 1}, {V(1)});
+  };
+  const Light light = load_shot(file, {}, reader).lights.at(0);
+  ASSERT_TRUE(light.texture);
+  EXPECT_EQ(light.texture->name(), (folder_ / "lights/lantern.exr").string());
+  EXPECT_EQ(light.name, "ceiling");
+
+  const auto failing = [](const std::filesystem::path& name) -> LightTexture {
+    throw Error(ExitCode::bad_file, name.string(), "it is dark");
+  };
+  try {
+    load_shot(file, {}, failing);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit_code, ExitCode::bad_file);
+    EXPECT_THAT(error.what(), HasSubstr("s.toml, line 3, light.texture: "));
+    EXPECT_THAT(error.what(), HasSubstr("lantern.exr: it is dark"));
+  }
+  const std::string scene = "scene = 'cornell'\n[light]\n";
+  expect_error(scene + "texture = 'lantern.exr'\n", "line 3, light.texture: there is nothing to read");
+  expect_error(scene + "texture = 1\n", "line 3, light.texture: it must be a text");
 }
 
 TEST_F(Shot, RefusesScenesThatItCannotShow) {

@@ -1,21 +1,18 @@
-#include "quality/numbers.h"
+#include "scene/numbers.h"
 
 #include <gtest/gtest.h>
 
 #include "scene/error.h"
 
-namespace airlight::quality {
+namespace airlight::scene {
 namespace {
-
-using scene::Error;
 
 TEST(Numbers, AreReadExactly) {
   EXPECT_EQ(parse_count("", "2147483647"), 2147483647);
   EXPECT_EQ(parse_number("", "-1.5e-3"), -1.5e-3);
-  EXPECT_EQ(parse_float("", "0.1"), 0.1f);
   EXPECT_EQ(parse_vector("", "-1,2,3e2"), glm::dvec3(-1.0, 2.0, 300.0));
-  EXPECT_EQ(parse_colour("", "1,2,3"), glm::vec3(1.0f, 2.0f, 3.0f));
-  EXPECT_EQ(parse_colour("", "0.5"), glm::vec3(0.5f));
+  EXPECT_EQ(parse_colour("", "1,2,3"), glm::dvec3(1.0, 2.0, 3.0));
+  EXPECT_EQ(parse_colour("", "0.5"), glm::dvec3(0.5));
   EXPECT_EQ(parse_size("", "640x480"), glm::ivec2(640, 480));
 }
 
@@ -26,18 +23,16 @@ TEST(Numbers, RefuseWhatIsNotOneNumber) {
   for (const char* text : {"", " 1", "1 ", "1m", "nan", "inf", "-inf", "1e999", "1,2"}) {
     EXPECT_THROW(parse_number("", text), Error) << text;
   }
-  EXPECT_THROW(parse_float("", "1e39"), Error);
 }
 
-TEST(Numbers, RefuseWrongCountsAndSigns) {
+TEST(Numbers, RefuseWrongCounts) {
   for (const char* text : {"", "1", "1,2", "1,2,3,4", "1,,3", "1,2,nan", "1,2,3,"}) {
     EXPECT_THROW(parse_vector("", text), Error) << text;
   }
-  for (const char* text : {"", "1,2", "1,2,-3", "-1", "1,2,3,4", "1e39"}) {
+  for (const char* text : {"", "1,2", "1,2,3,4", "1,,3", "nan", "1,2,inf"}) {
     EXPECT_THROW(parse_colour("", text), Error) << text;
   }
-  for (const char* text :
-       {"", "5", "x", "5x", "0x5", "5x0", "-5x5", "5x5x5", "5X5", "5x5.0", "99999999999x1"}) {
+  for (const char* text : {"", "5", "x", "5x", "5x5x5", "5X5", "5x5.0", "99999999999x1"}) {
     EXPECT_THROW(parse_size("", text), Error) << text;
   }
 }
@@ -48,7 +43,7 @@ TEST(Numbers, ErrorsNameTheOption) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_STREQ(error.what(), "--fov: 'wide' is not a finite number");
-    EXPECT_EQ(error.exit_code, scene::ExitCode::usage);
+    EXPECT_EQ(error.exit_code, ExitCode::usage);
   }
 }
 
@@ -58,4 +53,4 @@ TEST(Split, KeepsEmptyParts) {
 }
 
 }  // namespace
-}  // namespace airlight::quality
+}  // namespace airlight::scene

@@ -6,29 +6,26 @@
 
 #include <glm/glm.hpp>
 
-namespace airlight::quality {
+namespace airlight::scene {
 
 // Strict readings of what a user typed: the whole text is one decimal number, finite and inside the type's
-// range. Each throws scene::Error (usage) that names `where`, the option or key that the text belongs to.
+// range. Each throws Error (usage) that names `where`, the option or key that the text belongs to.
 
 /// @returns an integer of at least 1
 int parse_count(const std::string& where, std::string_view text);
 
 double parse_number(const std::string& where, std::string_view text);
 
-/// @returns a number as a float; one that is too large for a float is refused
-float parse_float(const std::string& where, std::string_view text);
-
 /// Three numbers separated by commas.
 glm::dvec3 parse_vector(const std::string& where, std::string_view text);
 
-/// Three numbers separated by commas, or one that stands for all three; none negative.
-glm::vec3 parse_colour(const std::string& where, std::string_view text);
+/// Three numbers separated by commas, or one that stands for all three.
+glm::dvec3 parse_colour(const std::string& where, std::string_view text);
 
-/// WIDTHxHEIGHT, both at least 1.
+/// WIDTHxHEIGHT, both whole.
 glm::ivec2 parse_size(const std::string& where, std::string_view text);
 
 /// The parts between separators; empty parts are kept.
 std::vector<std::string_view> split(std::string_view text, char separator);
 
-}  // namespace airlight::quality
+}  // namespace airlight::scene

@@ -1,6 +1,5 @@
-#include "quality/numbers.h"
+#include "scene/numbers.h"
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <system_error>
@@ -9,11 +8,11 @@
 
 #include "scene/error.h"
 
-namespace airlight::quality {
+namespace airlight::scene {
 namespace {
 
 [[noreturn]] void refuse(const std::string& where, std::string_view text, const std::string& expected) {
-  throw scene::Error(scene::ExitCode::usage, where, fmt::format("'{}' is not {}", text, expected));
+  throw Error(ExitCode::usage, where, fmt::format("'{}' is not {}", text, expected));
 }
 
 /// @returns whether the whole text is one number that fits
@@ -23,11 +22,11 @@ bool read(std::string_view text, T& value) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-bool read_float(std::string_view text, float& value) {
-  double number = 0.0;
-  if (!read(text, number)) return false;
-  value = static_cast<float>(number);
-  return std::isfinite(value);
+bool read_three(const std::vector<std::string_view>& parts, glm::dvec3& value) {
+  bool good = parts.size() == 3;
+  for (int i = 0; good && i < 3; ++i)
+    good = read(parts[static_cast<std::size_t>(i)], value[i]) && std::isfinite(value[i]);
+  return good;
 }
 
 }  // namespace
@@ -54,43 +53,26 @@ double parse_number(const std::string& where, std::string_view text) {
   return value;
 }
 
-float parse_float(const std::string& where, std::string_view text) {
-  float value = 0.0f;
-  if (!read_float(text, value)) refuse(where, text, "a finite number within single precision");
-  return value;
-}
-
 glm::dvec3 parse_vector(const std::string& where, std::string_view text) {
-  const std::vector<std::string_view> parts = split(text, ',');
   glm::dvec3 value(0.0);
-  bool good = parts.size() == 3;
-  for (int i = 0; good && i < 3; ++i) {
-    good = read(parts[static_cast<std::size_t>(i)], value[i]) && std::isfinite(value[i]);
-  }
-  if (!good) refuse(where, text, "three finite numbers x,y,z");
+  if (!read_three(split(text, ','), value)) refuse(where, text, "three finite numbers x,y,z");
   return value;
 }
 
-glm::vec3 parse_colour(const std::string& where, std::string_view text) {
-  const std::vector<std::string_view> parts = split(text, ',');
-  glm::vec3 value(0.0f);
-  bool good = parts.size() == 1 || parts.size() == 3;
-  for (int i = 0; good && i < 3; ++i) {
-    const std::string_view part = parts[parts.size() == 1 ? 0 : static_cast<std::size_t>(i)];
-    good = read_float(part, value[i]) && value[i] >= 0.0f;
-  }
-  if (!good) refuse(where, text, "one finite number, or three r,g,b, none negative");
+glm::dvec3 parse_colour(const std::string& where, std::string_view text) {
+  glm::dvec3 value(0.0);
+  std::vector<std::string_view> parts = split(text, ',');
+  if (parts.size() == 1) parts.assign(3, text);
+  if (!read_three(parts, value)) refuse(where, text, "one finite number, or three r,g,b");
   return value;
 }
 
 glm::ivec2 parse_size(const std::string& where, std::string_view text) {
   const std::vector<std::string_view> parts = split(text, 'x');
   glm::ivec2 size(0);
-  if (parts.size() != 2 || !read(parts[0], size.x) || !read(parts[1], size.y) ||
-      std::min(size.x, size.y) < 1) {
+  if (parts.size() != 2 || !read(parts[0], size.x) || !read(parts[1], size.y))
     refuse(where, text, "WIDTHxHEIGHT in pixels, as in 512x512");
-  }
   return size;
 }
 
-}  // namespace airlight::quality
+}  // namespace airlight::scene

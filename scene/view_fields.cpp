@@ -1,0 +1,315 @@
+#include "scene/view_fields.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+#include "scene/import_internal.h"
+#include "scene/numbers.h"
+
+namespace airlight::scene {
+namespace {
+
+using enum FieldKind;
+using Texture = std::shared_ptr<const LightTexture>;
+
+constexpr FieldRange k_any;
+constexpr FieldRange k_not_negative = {.lower = 0};
+constexpr FieldRange k_positive = {.lower = 0, .is_open = true};
+constexpr FieldRange k_fraction = {.lower = 0, .upper = 1};
+constexpr FieldRange k_reflectance = {.lower = 0, .upper = 1, .why = "a surface reflects at most all light"};
+constexpr FieldRange k_cosine = {.lower = -1, .upper = 1, .is_open = true};
+constexpr FieldRange k_half_turn = {.lower = 0, .upper = 180, .is_open = true};
+constexpr FieldRange k_place = {.lower = -k_largest_coordinate, .upper = k_largest_coordinate};
+
+/// A single-precision value with the digits it has, not those of its conversion to double.
+double digits(float value) {
+  return std::isfinite(value) ? std::stod(fmt::format("{}", value)) : static_cast<double>(value);
+}
+
+void assign(double& to, const FieldValue& value) {
+  to = std::get<double>(value);
+}
+void assign(float& to, const FieldValue& value) {
+  to = static_cast<float>(std::get<double>(value));
+}
+void assign(std::optional<float>& to, const FieldValue& value) {
+  assign(to.emplace(), value);
+}
+void assign(glm::vec3& to, const FieldValue& value) {
+  to = std::get<glm::dvec3>(value);
+}
+template <typename Same>
+void assign(Same& to, const FieldValue& value) {
+  to = std::get<Same>(value);
+}
+
+std::optional<FieldValue> value_of(float value) {
+  return digits(value);
+}
+std::optional<FieldValue> value_of(const std::optional<float>& value) {
+  return value ? value_of(*value) : std::nullopt;
+}
+std::optional<FieldValue> value_of(glm::vec3 v) {
+  return glm::dvec3(digits(v.x), digits(v.y), digits(v.z));
+}
+std::optional<FieldValue> value_of(const Texture& texture) {
+  return texture ? std::optional<FieldValue>(texture) : std::nullopt;
+}
+template <typename Same>
+std::optional<FieldValue> value_of(const Same& value) {
+  return value;
+}
+
+template <typename Thing, typename Value>
+Thing owner(Value Thing::*);
+template <typename Thing, typename Value>
+Value type(Value Thing::*);
+
+/// A field that is a member of the thing.
+template <auto member>
+auto member_field(FieldInfo info,
+                  std::optional<FieldProblem> (*lack)(const decltype(owner(member))&) = nullptr) {
+  using Thing = decltype(owner(member));
+  using Value = decltype(type(member));
+  info.is_single = std::is_same_v<Value, float> || std::is_same_v<Value, std::optional<float>>;
+  return Field<Thing>{info, [](Thing& thing, const FieldValue& value) { assign(thing.*member, value); },
+                      [](const Thing& thing) { return value_of(thing.*member); }, lack};
+}
+
+std::optional<FieldProblem> lack_of_g(const Medium& medium) {
+  if (has_g(medium.phase)) return std::nullopt;
+  return FieldProblem{fmt::format("the phase function {} has no g", phase_name(medium.phase)),
+                      "choose henyey-greenstein or hoffman-preetham"};
+}
+
+std::optional<FieldProblem> lack_of_mix(const Medium& medium) {
+  if (medium.phase == PhaseFunction::hoffman_preetham) return std::nullopt;
+  return FieldProblem{fmt::format("the phase function {} mixes nothing", phase_name(medium.phase)),
+                      "choose hoffman-preetham"};
+}
+
+void set_phase(Medium& medium, const FieldValue& value) {
+  const auto names = phase_names();
+  medium.phase = static_cast<PhaseFunction>(
+      std::find(names.begin(), names.end(), std::get<std::string>(value)) - names.begin());
+  if (!has_g(medium.phase)) medium.g = 0.0f;
+}
+
+std::string list(std::span<const std::string_view> words, std::string_view last) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += fmt::format("{}{}", i == 0 ? "" : i + 1 < words.size() ? ", " : last, words[i]);
+  return text;
+}
+
+}  // namespace
+
+// A row's columns: group, name, kind, placeholder, label, meaning, unit, note, default, range, words.
+
+template <>
+std::span<const Field<Camera>> fields() {
+  static const std::array table = {
+      member_field<&Camera::eye>({"camera", "eye", vector, "X,Y,Z", "eye", "where the camera stands", "m",
+                                  "needs --target", "", k_place}),
+      member_field<&Camera::target>({"camera", "target", vector, "X,Y,Z", "target",
+                                     "a point straight ahead of the camera", "m", "needs --eye", "",
+                                     k_place}),
+      member_field<&Camera::up>({"camera", "up", vector, "X,Y,Z", "up", "the camera's up", "", "",
+                                 "0,1,0 with --eye, else the camera's own"}),
+      member_field<&Camera::vertical_fov_degrees>({"camera", "fov", number, "DEG", "vertical field of view",
+                                                   "vertical field of view", "degrees", "",
+                                                   "45 with --eye, else the camera's own", k_half_turn}),
+  };
+  return table;
+}
+
+template <>
+std::span<const Field<Light>> fields() {
+  static const std::array table = {
+      member_field<&Light::position>({"light", "light-position", vector, "X,Y,Z", "at", "where the light is",
+                                      "m", "needs --intensity", "", k_place}),
+      member_field<&Light::intensity>({"light", "intensity", colour, "R,G,B", "intensity",
+                                       "radiant intensity of the light", "W/sr", "", "", k_not_negative}),
+      member_field<&Light::texture>(
+          {"light", "light-texture", file, "FILE.exr", "textured by",
+           "what the light radiates by direction, relative to its intensity: an equirectangular image, "
+           "+Y at the top, +Z in the middle, +X to the left of it",
+           "", "for vsv it needs integral=riemann"}),
+  };
+  return table;
+}
+
+template <>
+std::span<const Field<Medium>> fields() {
+  static const std::array table = {
+      member_field<&Medium::sigma_s>({"medium", "sigma-s", colour, "R,G,B", "σ_s", "scattering coefficient",
+                                      "1/m", "", "the scene's, 0.1 for a file", k_not_negative}),
+      member_field<&Medium::sigma_a>({"medium", "sigma-a", colour, "R,G,B", "σ_a", "absorption coefficient",
+                                      "1/m", "", "the scene's, 0 for a file", k_not_negative}),
+      Field<Medium>{
+          {"medium", "phase", word, "NAME", "phase function", "phase function", "", "",
+           "the scene's, isotropic for a file", k_any, phase_names()},
+          set_phase,
+          [](const Medium& medium) -> std::optional<FieldValue> { return phase_name(medium.phase); }},
+      member_field<&Medium::g>({"medium", "g", number, "G", "g =",
+                                "mean cosine of henyey-greenstein, between -1 and 1", "", "", "", k_cosine},
+                               lack_of_g),
+      member_field<&Medium::rayleigh_weight>(
+          {"medium", "rayleigh-weight", number, "W", "rayleigh weight",
+           "part of rayleigh in hoffman-preetham, 0 to 1; the rest is henyey-greenstein", "", "", "0.5",
+           k_fraction},
+          lack_of_mix),
+  };
+  return table;
+}
+
+template <>
+std::span<const Field<Scene>> fields() {
+  static const std::array table = {
+      Field<Scene>{{"", "albedo", colour, "R,G,B", "albedo", "reflectance of every surface, 0 to 1", "",
+                    "0 leaves the airlight alone", "", k_reflectance},
+                   [](Scene& scene, const FieldValue& value) {
+                     override_albedo(scene.geometry, std::get<glm::dvec3>(value));
+                   },
+                   [](const Scene& scene) {
+                     const std::vector<Material>& materials = scene.geometry.materials;
+                     return materials.size() == 1 ? value_of(materials[0].albedo) : std::nullopt;
+                   }},
+      member_field<&Scene::exposure>(
+          {"", "exposure", number, "E", "exposure", "of PNG images: radiance is multiplied by it", "", "",
+           "the scene's; for a file, the 95th percentile maps to 0.8", k_positive}),
+  };
+  return table;
+}
+
+template <>
+std::span<const Field<View>> fields() {
+  static const std::array table = {
+      member_field<&View::size>(
+          {"", "size", size, "WxH", "size", "size of the image", "pixels", "", "512x512"}),
+  };
+  return table;
+}
+
+const FieldInfo& camera_choice() {
+  static constexpr FieldInfo k_info = {
+      "camera", "camera", word,
+      "NAME|N", "",       "one of the scene's cameras, by name or number from 0",
+      "",       "",       "the first; without one, the view is fitted"};
+  return k_info;
+}
+
+const FieldInfo& light_choice() {
+  static constexpr FieldInfo k_info = {
+      "light", "light", word,       "NAME|N", "", "one of the scene's lights, by name or number from 0",
+      "",      "",      "the first"};
+  return k_info;
+}
+
+std::span<const FieldInfo* const> every_field() {
+  static const std::vector<const FieldInfo*> infos = [] {
+    std::vector<const FieldInfo*> list;
+    const auto add = [&](auto fields) {
+      for (const auto& field : fields) list.push_back(&field);
+    };
+    list.push_back(&camera_choice());
+    add(fields<Camera>());
+    list.push_back(&light_choice());
+    add(fields<Light>());
+    add(fields<Medium>());
+    add(fields<Scene>());
+    add(fields<View>());
+    return list;
+  }();
+  return infos;
+}
+
+std::string FieldInfo::key() const {
+  if (name == group) return "name";
+  std::string key(name);
+  const std::string prefix = fmt::format("{}-", group);
+  if (key.starts_with(prefix)) key.erase(0, prefix.size());
+  std::replace(key.begin(), key.end(), '-', '_');
+  return key;
+}
+
+std::string FieldInfo::help() const {
+  std::string text(meaning);
+  if (!words.empty()) text += ": " + list(words, ", ");
+  if (!unit.empty()) text += fmt::format(" [{}]", unit);
+  if (kind == colour) text += "; one number means grey";
+  if (!note.empty()) text += fmt::format("; {}", note);
+  if (!usual.empty()) text += fmt::format(" (default: {})", usual);
+  return text;
+}
+
+std::optional<FieldProblem> FieldInfo::problem(const FieldValue& value) const {
+  const auto wrong = [](std::string problem, std::string_view remedy = {}) {
+    return FieldProblem{std::move(problem), std::string(remedy)};
+  };
+  if (kind == word) {
+    const auto& text = std::get<std::string>(value);
+    if (words.empty() || std::find(words.begin(), words.end(), text) != words.end()) return std::nullopt;
+    return wrong(fmt::format("'{}' is unknown", printable(text)), "use " + list(words, " or "));
+  }
+  if (kind == size) {
+    const auto pixels = std::get<glm::ivec2>(value);
+    if (std::min(pixels.x, pixels.y) >= 1) return std::nullopt;
+    return wrong(fmt::format("an image of {}x{} has no pixels", pixels.x, pixels.y));
+  }
+  if (kind == file) return std::nullopt;  // a LightTexture is one that can be
+
+  const glm::dvec3 parts = kind == number ? glm::dvec3(std::get<double>(value)) : std::get<glm::dvec3>(value);
+  for (int i = 0; i < 3; ++i) {
+    if (!std::isfinite(parts[i])) return wrong(fmt::format("{} is not finite", parts[i]));
+    const double kept =
+        is_single || kind == colour ? static_cast<double>(static_cast<float>(parts[i])) : parts[i];
+    if (!std::isfinite(kept)) return wrong("it is too large");
+    const bool is_inside =
+        range.is_open ? kept > range.lower && kept < range.upper : kept >= range.lower && kept <= range.upper;
+    if (is_inside) continue;
+    if (kind == vector) return wrong(fmt::format("it is farther than {:g} m from the origin", range.upper));
+    if (kind == colour && kept < range.lower) return wrong("it must not be negative");
+    if (kind == colour) return wrong(fmt::format("it is more than {}", range.upper), range.why);
+    if (std::isinf(range.upper)) return wrong(fmt::format("{} is not positive", parts[i]));
+    return wrong(fmt::format("{} is not between {} and {}{}{}", parts[i], range.lower, range.upper,
+                             unit.empty() ? "" : " ", unit));
+  }
+  return std::nullopt;
+}
+
+FieldValue value_of_text(const FieldInfo& field, const std::string& where, std::string_view text,
+                         const LightTextureReader& read_light_texture) {
+  switch (field.kind) {
+    case number:
+      return parse_number(where, text);
+    case vector:
+      return parse_vector(where, text);
+    case colour:
+      return parse_colour(where, text);
+    case word:
+      return std::string(text);
+    case file:
+      return std::make_shared<const LightTexture>(read_light_texture(text));
+    case size:
+      return parse_size(where, text);
+  }
+  return {};
+}
+
+std::string text_of(const FieldValue& value) {
+  struct Writer {
+    std::string operator()(double v) const { return fmt::format("{}", v); }
+    std::string operator()(glm::dvec3 v) const { return fmt::format("{},{},{}", v.x, v.y, v.z); }
+    std::string operator()(const std::string& v) const { return v; }
+    std::string operator()(glm::ivec2 v) const { return fmt::format("{}x{}", v.x, v.y); }
+    std::string operator()(const Texture& v) const { return v->name(); }
+  };
+  return std::visit(Writer(), value);
+}
+
+}  // namespace airlight::scene

@@ -1,0 +1,214 @@
+#include "scene/view_fields.h"
+
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <set>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scene/error.h"
+#include "support/paths.h"
+
+namespace airlight::scene {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double k_infinity = std::numeric_limits<double>::infinity();
+
+LightTexture white(const std::filesystem::path& file) {
+  return {file.string(), {1, 1}, {glm::vec3(1.0f)}};
+}
+
+/// Things that have every field.
+template <typename Thing>
+Thing complete() {
+  return {};
+}
+template <>
+Medium complete() {
+  return {.phase = PhaseFunction::hoffman_preetham};
+}
+template <>
+Scene complete() {
+  Scene scene;
+  scene.geometry.materials = {{}};
+  return scene;
+}
+
+/// A text of that kind which is inside every field's range, and no field's default.
+std::string text_for(const FieldInfo& field) {
+  switch (field.kind) {
+    case FieldKind::number:
+      return "0.7";
+    case FieldKind::vector:
+      return "-0.1,0.3333333333333333,7e-09";
+    case FieldKind::colour:
+      return "0.1,0.33333334,1e-09";
+    case FieldKind::word:
+      return "henyey-greenstein";
+    case FieldKind::file:
+      return "a lantern.exr";
+    case FieldKind::size:
+      return "640x480";
+  }
+  return {};
+}
+
+template <typename Thing>
+class FieldsOf : public testing::Test {};
+using Things = testing::Types<Camera, Light, Medium, Scene, View>;
+TYPED_TEST_SUITE(FieldsOf, Things);
+
+TYPED_TEST(FieldsOf, ReadBackTheTextThatTheyWereSetTo) {
+  for (const Field<TypeParam>& field : fields<TypeParam>()) {
+    auto thing = complete<TypeParam>();
+    const std::string text = text_for(field);
+    const FieldValue value = value_of_text(field, "", text, white);
+    EXPECT_EQ(text_of(value), text) << field.name;
+    const auto before = field.get(thing);
+    EXPECT_TRUE(!before || text_of(*before) != text) << field.name;
+    ASSERT_FALSE(field.set(thing, value)) << field.name;
+    ASSERT_TRUE(field.get(thing)) << field.name;
+    EXPECT_EQ(*field.get(thing), value) << field.name;
+  }
+}
+
+TYPED_TEST(FieldsOf, RefuseWhatIsNotFiniteAndStayAsTheyAre) {
+  for (const Field<TypeParam>& field : fields<TypeParam>()) {
+    auto thing = complete<TypeParam>();
+    const auto before = field.get(thing);
+    for (double bad : {k_nan, k_infinity, -k_infinity}) {
+      std::vector<FieldValue> values;
+      if (field.kind == FieldKind::number) values = {bad};
+      if (field.kind == FieldKind::vector || field.kind == FieldKind::colour)
+        values = {glm::dvec3(bad, 0, 0), glm::dvec3(0, bad, 0), glm::dvec3(0, 0, bad)};
+      for (const FieldValue& value : values) {
+        const auto wrong = field.set(thing, value);
+        ASSERT_TRUE(wrong) << field.name;
+        EXPECT_THAT(wrong->problem, HasSubstr(bad > 0 ? "inf is not finite" : " is not finite"))
+            << field.name;
+      }
+    }
+    EXPECT_EQ(field.get(thing), before) << field.name;
+  }
+}
+
+TYPED_TEST(FieldsOf, SayWhatTheyAre) {
+  for (const Field<TypeParam>& field : fields<TypeParam>()) {
+    EXPECT_NE(field.placeholder, "") << field.name;
+    EXPECT_NE(field.label, "") << field.name;
+    EXPECT_NE(field.meaning, "") << field.name;
+    EXPECT_THAT(field.help(), HasSubstr(std::string(field.meaning)));
+    EXPECT_THAT(field.help(), HasSubstr(std::string(field.unit)));
+    EXPECT_THAT(field.help(), HasSubstr(std::string(field.usual)));
+  }
+}
+
+/// What is wrong with a text for a field; empty for nothing.
+template <typename Thing>
+std::string problem(std::string_view name, std::string_view text) {
+  const FieldInfo& info = field<Thing>(name);
+  const auto wrong = info.problem(value_of_text(info, "", text, white));
+  return wrong ? wrong->problem : "";
+}
+
+TEST(Fields, RefuseWhatIsOutOfRange) {
+  for (const char* name : {"eye", "target"})
+    EXPECT_EQ(problem<Camera>(name, "0,-2e18,0"), "it is farther than 1e+18 m from the origin");
+  EXPECT_EQ(problem<Light>("light-position", "2e18,0,0"), "it is farther than 1e+18 m from the origin");
+  EXPECT_EQ(problem<Camera>("up", "0,2e18,0"), "");
+  for (const char* text : {"0", "-1", "180", "1e+39"})
+    EXPECT_EQ(problem<Camera>("fov", text), fmt::format("{} is not between 0 and 180 degrees", text));
+}
+
+TEST(Fields, RefuseColoursThatCannotBe) {
+  const auto problems = [](std::string_view text) {
+    return std::vector{problem<Light>("intensity", text), problem<Medium>("sigma-s", text),
+                       problem<Medium>("sigma-a", text), problem<Scene>("albedo", text)};
+  };
+  EXPECT_THAT(problems("0,0,-1e-9"), testing::Each("it must not be negative"));
+  EXPECT_THAT(problems("0,1e39,0"), testing::Each("it is too large"));
+  EXPECT_THAT(problems("1,0,1"), testing::Each(""));
+  EXPECT_EQ(problem<Scene>("albedo", "0,1.1,0"), "it is more than 1");
+  EXPECT_EQ(problem<Medium>("sigma-s", "3e38"), "");
+}
+
+TEST(Fields, RefuseNumbersThatSinglePrecisionRoundsOutOfTheirRange) {
+  for (const char* text : {"1", "-1", "0.99999999999", "2"})
+    EXPECT_EQ(problem<Medium>("g", text), fmt::format("{} is not between -1 and 1", text));
+  EXPECT_EQ(problem<Medium>("g", "-0.999999"), "");
+  for (const char* text : {"-0.1", "1.1"})
+    EXPECT_EQ(problem<Medium>("rayleigh-weight", text), fmt::format("{} is not between 0 and 1", text));
+  EXPECT_EQ(problem<Medium>("rayleigh-weight", "0") + problem<Medium>("rayleigh-weight", "1"), "");
+  for (const char* text : {"0", "-1", "1e-60"})
+    EXPECT_EQ(problem<Scene>("exposure", text), fmt::format("{} is not positive", text));
+  EXPECT_EQ(problem<Scene>("exposure", "1e39"), "it is too large");
+}
+
+TEST(Fields, RefuseWordsAndSizesThatAreNone) {
+  EXPECT_EQ(problem<Medium>("phase", "mie"), "'mie' is unknown");
+  EXPECT_EQ(field<Medium>("phase").problem(std::string("mie"))->remedy,
+            "use isotropic, rayleigh, henyey-greenstein or hoffman-preetham");
+  for (const char* text : {"0x5", "5x0", "-5x5"})
+    EXPECT_EQ(problem<View>("size", text), fmt::format("an image of {} has no pixels", text));
+}
+
+TEST(Fields, AreNoneWhereAThingHasNone) {
+  const auto& g = field<Medium>("g");
+  const auto& weight = field<Medium>("rayleigh-weight");
+  for (std::string_view name : phase_names()) {
+    Medium medium;
+    ASSERT_FALSE(field<Medium>("phase").set(medium, std::string(name)));
+    EXPECT_EQ(g.get(medium).has_value(), has_g(medium.phase)) << name;
+    EXPECT_EQ(g.set(medium, 0.5).has_value(), !has_g(medium.phase)) << name;
+    EXPECT_EQ(medium.g, has_g(medium.phase) ? 0.5f : 0.0f);
+    EXPECT_EQ(weight.get(medium).has_value(), name == "hoffman-preetham");
+    EXPECT_EQ(weight.set(medium, 0.25).has_value(), name != "hoffman-preetham");
+  }
+  EXPECT_FALSE(field<Light>("light-texture").get({}));
+  EXPECT_FALSE(field<Scene>("exposure").get({}));
+  Scene scene;
+  scene.geometry.materials = {{}, {}};
+  EXPECT_FALSE(field<Scene>("albedo").get(scene));
+}
+
+TEST(Fields, OfAPhaseFunctionWithoutGForgetIt) {
+  Medium medium = {.phase = PhaseFunction::henyey_greenstein, .g = 0.5f};
+  ASSERT_FALSE(field<Medium>("phase").set(medium, std::string("rayleigh")));
+  EXPECT_EQ(medium.g, 0.0f);
+}
+
+TEST(Fields, HaveKeysThatFollowFromTheirNames) {
+  EXPECT_EQ(field<Light>("light-position").key(), "position");
+  EXPECT_EQ(field<Light>("intensity").key(), "intensity");
+  EXPECT_EQ(field<Medium>("rayleigh-weight").key(), "rayleigh_weight");
+  EXPECT_EQ(field<View>("size").key(), "size");
+  EXPECT_EQ(camera_choice().key(), "name");
+  std::set<std::string> names, keys;
+  for (const FieldInfo* info : every_field()) {
+    EXPECT_TRUE(names.emplace(info->name).second) << info->name;
+    EXPECT_TRUE(keys.insert(fmt::format("{}.{}", info->group, info->key())).second) << info->name;
+  }
+}
+
+TEST(Fields, AreInTheDocumentationOfShots) {
+  std::ifstream stream(AIRLIGHT_SHOT_HEADER);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  for (const FieldInfo* info : every_field()) {
+    if (info->name == "size") continue;
+    // Between the head of its table and the next.
+    const std::size_t begin = info->group.empty() ? 0 : text.find(fmt::format("///     [{}]", info->group));
+    ASSERT_NE(begin, text.npos) << info->group;
+    const std::string table = text.substr(begin, text.find("///     [", begin + 1) - begin);
+    EXPECT_THAT(table, HasSubstr(fmt::format(" {} = ", info->key())));
+  }
+}
+
+}  // namespace
+}  // namespace airlight::scene
