@@ -97,14 +97,8 @@ int run(int argc, char** argv) {
       "--debug", options.debug,
       "also write pictures of what a volume method holds; of vsv: the grid before and after "
       "the scan, and the shadowed samples of each pixel");
-  std::string methods = "METHOD is NAME:key=value:key=value. Airlight:\n";
-  for (const quality::VolumeMethod& method : quality::volume_methods())
-    methods += fmt::format("  {:<16} {}\n", method.name, method.description);
-  methods += "Surface shadow:\n";
-  for (const quality::SurfaceMethod& method : quality::surface_methods())
-    methods += fmt::format("  {:<16} {}\n", method.name, method.description);
-  render_command.footer(methods);
-  compare_command.footer(methods);
+  render_command.footer(quality::method_help());
+  compare_command.footer(quality::method_help());
 
   CLI::App& scenes_command = *app.add_subcommand("scenes", "lists the built-in scenes");
   CLI::App& info_command = *app.add_subcommand("info", "tells the driver and its limits");

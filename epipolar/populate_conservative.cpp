@@ -1,12 +1,11 @@
 #include "epipolar/populate_conservative.h"
 
 #include "spirv/epipolar/populate_conservative_comp.h"
-#include "spirv/epipolar/populate_conservative_queue_comp.h"
 
 namespace airlight::epipolar {
 
 PopulateConservative::PopulateConservative(const Resolution& resolution)
-    : triangles_(resolution, k_populate_conservative_comp, k_populate_conservative_queue_comp) {}
+    : triangles_(resolution, k_populate_conservative_comp) {}
 
 void PopulateConservative::run(const Grid& grid, const frame::SceneBuffers& scene) {
   grid.first_shadowed().clear(static_cast<std::uint32_t>(grid.resolution().alpha));

@@ -8,7 +8,6 @@
 #include "scene/components.h"
 
 #include "spirv/epipolar/populate_screen_space_comp.h"
-#include "spirv/epipolar/populate_screen_space_queue_comp.h"
 #include "spirv/epipolar/screen_space_resolve_comp.h"
 
 namespace airlight::epipolar {
@@ -44,7 +43,7 @@ std::vector<std::uint32_t> deal_apart(const std::vector<scene::Box>& boxes) {
 
 PopulateScreenSpace::PopulateScreenSpace(const gpu::Limits& limits, const Grid& grid)
     : limits_(limits),
-      crossings_(grid.resolution(), k_populate_screen_space_comp, k_populate_screen_space_queue_comp),
+      crossings_(grid.resolution(), k_populate_screen_space_comp),
       resolve_(gpu::Pipeline::compute(k_screen_space_resolve_comp, resolution_constants(grid.resolution()))) {
   const Resolution& n = grid.resolution();
   int planes = 0;

@@ -13,22 +13,19 @@ struct QueueHead {
   std::uint32_t many_groups[3], many_count, most_groups[3], most_count, first_triangle, triangle_count;
 };
 
-gpu::Pipeline load_queue(const Resolution& resolution, std::span<const std::uint32_t> spirv,
-                         std::uint32_t from_back) {
+/// @param pass see shaders/epipolar/triangle_passes.glsl
+gpu::Pipeline load(const Resolution& resolution, std::span<const std::uint32_t> spirv, std::uint32_t pass) {
   const auto grid = resolution_constants(resolution);
-  return gpu::Pipeline::compute(spirv, std::array{grid[0], grid[1], grid[2], gpu::Constant(3, from_back)});
+  return gpu::Pipeline::compute(spirv, std::array{grid[0], grid[1], grid[2], gpu::Constant(3, pass)});
 }
 
 }  // namespace
 
-TriangleQueue::TriangleQueue(const Resolution& resolution, std::span<const std::uint32_t> few,
-                             std::span<const std::uint32_t> queue)
-    : few_(gpu::Pipeline::compute(few, resolution_constants(resolution))),
-      many_(load_queue(resolution, queue, 0)),
-      most_(load_queue(resolution, queue, 1)) {}
+TriangleQueue::TriangleQueue(const Resolution& resolution, std::span<const std::uint32_t> spirv)
+    : all_(load(resolution, spirv, 0)), many_(load(resolution, spirv, 1)), most_(load(resolution, spirv, 2)) {}
 
 void TriangleQueue::set_window(const Window& window) {
-  for (const gpu::Pipeline* program : {&few_, &many_, &most_}) epipolar::set_window(*program, window);
+  for (const gpu::Pipeline* program : {&all_, &many_, &most_}) epipolar::set_window(*program, window);
 }
 
 void TriangleQueue::run(std::uint32_t first, std::uint32_t count) {
@@ -42,7 +39,7 @@ void TriangleQueue::run(std::uint32_t first, std::uint32_t count) {
     const std::uint32_t part = std::min(count - done, k_at_once);
     const QueueHead head = {{k_row, 0, 1}, 0, {k_row, 0, k_groups_of_most}, 0, first + done, part};
     queue_.write(&head, sizeof head);
-    few_.dispatch({part, 1, 1});
+    all_.dispatch({part, 1, 1});
     many_.dispatch_indirect(queue_, offsetof(QueueHead, many_groups));
     most_.dispatch_indirect(queue_, offsetof(QueueHead, most_groups));
   }

@@ -9,9 +9,8 @@ namespace airlight::epipolar {
 /// group or sixteen a large one (shaders/epipolar/triangle_queue.glsl).
 class TriangleQueue {
  public:
-  /// @param few, queue the entry points of the two passes
-  TriangleQueue(const Resolution& resolution, std::span<const std::uint32_t> few,
-                std::span<const std::uint32_t> queue);
+  /// @param spirv an entry point that includes shaders/epipolar/triangle_passes.glsl
+  TriangleQueue(const Resolution& resolution, std::span<const std::uint32_t> spirv);
 
   /// See epipolar::set_window; for shaders that work on one.
   void set_window(const Window& window);
@@ -20,7 +19,7 @@ class TriangleQueue {
   void run(std::uint32_t first, std::uint32_t count);
 
  private:
-  gpu::Pipeline few_, many_, most_;
+  gpu::Pipeline all_, many_, most_;
   gpu::Buffer queue_;
 };
 

@@ -151,6 +151,84 @@ std::vector<SurfaceChoice> parse_surfaces(std::string_view list, std::span<const
   return parse_choices("--surface", list, common, surface_methods());
 }
 
+namespace {
+
+/// Which values an option takes in a table, its default first.
+std::string values_cell(const frame::Option& option, const std::string& usual) {
+  const auto* words = std::get_if<frame::Words>(&option.values);
+  if (!words) return fmt::format("`{}`; {}", usual, frame::values_text(option));
+  std::string first, others;
+  for (const frame::Word& word : *words) {
+    const std::string entry =
+        fmt::format("`{}`{}{}", word.word, word.meaning.empty() ? "" : ": ", word.meaning);
+    if (word.word == usual)
+      first = entry;
+    else
+      others += "; " + entry;
+  }
+  return first + others;
+}
+
+/// Whether the tables of volume methods tell a surface method's options, for the one that is named alike.
+bool is_told(const SurfaceMethod& surface) {
+  return std::any_of(volume_methods().begin(), volume_methods().end(), [&](const VolumeMethod& volume) {
+    return volume.name == surface.name &&
+           std::all_of(surface.options.begin(), surface.options.end(),
+                       [&](const frame::Option& option) { return volume.find(option.text.name) != nullptr; });
+  });
+}
+bool is_told(const VolumeMethod&) {
+  return false;
+}
+
+template <typename MethodType>
+std::string tables_of(std::string_view title, std::span<const MethodType> methods) {
+  std::string table = fmt::format("| {} | what it is |\n|---|---|\n", title);
+  for (const MethodType& method : methods) {
+    table += fmt::format("| `{}` | {}", method.name, method.description);
+    if (!method.options.empty() && is_told(method)) {
+      const auto name_of = [](const frame::Option& option) { return fmt::format("`{}`", option.text.name); };
+      table += "; of the keys above it has " + join_names(method.options, name_of);
+    }
+    table += " |\n";
+  }
+  for (const MethodType& method : methods) {
+    if (method.options.empty() || is_told(method)) continue;
+    table += fmt::format("\n| key of `{}` | what it sets | values, the default first | quality | cost |\n",
+                         method.name);
+    table += "|---|---|---|---|---|\n";
+    for (const frame::Option& option : method.options) {
+      const std::string usual = frame::text_of(option.get(method.const_address(method.defaults)));
+      table += fmt::format("| `{}` | {} | {} | {} | {} |\n", option.text.name, option.text.meaning,
+                           values_cell(option, usual), option.text.quality, option.text.cost);
+    }
+  }
+  return table;
+}
+
+template <typename MethodType>
+std::string help_of(std::span<const MethodType> methods) {
+  std::string help;
+  for (const MethodType& method : methods) {
+    help += fmt::format("  {:<16} {}\n", method.name, method.description);
+    for (const frame::Option& option : method.options)
+      help += fmt::format("    {:<14} {}\n", option.text.name,
+                          frame::help_text(option, method.const_address(method.defaults)));
+  }
+  return help;
+}
+
+}  // namespace
+
+std::string method_tables() {
+  return tables_of("volume method", volume_methods()) + "\n" + tables_of("surface method", surface_methods());
+}
+
+std::string method_help() {
+  return "METHOD is NAME:key=value:key=value. Airlight, with its keys:\n" + help_of(volume_methods()) +
+         "Surface shadow:\n" + help_of(surface_methods());
+}
+
 void warn_of_open_parts(std::span<const VolumeChoice> volumes, std::span<const SurfaceChoice> surfaces,
                         scene::Scene& scene) {
   std::string who;

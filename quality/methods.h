@@ -78,6 +78,12 @@ using SurfaceChoice = Choice<SurfaceMethod>;
 std::vector<VolumeChoice> parse_volumes(std::string_view list, std::span<const CommonOption> common = {});
 std::vector<SurfaceChoice> parse_surfaces(std::string_view list, std::span<const CommonOption> common = {});
 
+/// Methods and options as the README shows them.
+std::string method_tables();
+
+/// One method a line, its options below, as the help shows them.
+std::string method_help();
+
 /// Adds a warning to the scene's report where a method takes its parts for solids and they are not closed.
 void warn_of_open_parts(std::span<const VolumeChoice> volumes, std::span<const SurfaceChoice> surfaces,
                         scene::Scene& scene);

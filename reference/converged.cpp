@@ -191,7 +191,7 @@ AirlightImage Reference::converged(int samples, const Progress& progress) const 
           integral[channel] = lit[channel];
           missed[channel] = lit_missed[channel];
         }
-        const glm::dvec3 radiance = scale * integral;  // Eq. (*)
+        const glm::dvec3 radiance = scale * integral;  // docs/method.md (*)
         image.radiance[state.index(x, y)] = glm::vec3(radiance);
         row.radiance += radiance.r + radiance.g + radiance.b;
         row.squared_difference += glm::dot(scale * missed, scale * missed);

@@ -124,7 +124,7 @@ AirlightImage Reference::march(int samples, RayMode mode, const Progress& progre
           fan.advance();
         }
         if (grey) sum = glm::dvec3(sum.r);
-        // Eq. (*), the integral as a Riemann sum.
+        // docs/method.md (*), the integral as a Riemann sum.
         image.radiance[state.index(x, y)] =
             glm::vec3(state.airlight_scale(ray) * (ray.phi_d / samples) * sum);
       }

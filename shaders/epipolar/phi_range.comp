@@ -1,16 +1,13 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#define PHI_RANGE_ACCESS
 #include "epipolar/uniforms.glsl"
+#include "epipolar/phi_range.glsl"
 
 // Finds the largest φ at which a view ray of this frame ends (section 4.3). Many pixels an invocation, so that few
 // atomics remain.
 layout(local_size_x = 64) in;
 layout(binding = k_surface_unit) uniform sampler2D surface_image;
-// angle_order of φ_max; floats ≥ 0 sort like their bits
-layout(std430, binding = k_phi_range_storage) buffer PhiRange {
-  uint largest_order;
-  float phi_growth;
-};
 
 const uint k_rows = 32u;
 

@@ -1,6 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#define PHI_RANGE_ACCESS
 #include "epipolar/uniforms.glsl"
+#include "epipolar/phi_range.glsl"
 #include "media/medium.glsl"
 
 // Chooses how the cells in φ grow, so that samples go where light comes from.
@@ -11,17 +13,12 @@
 // the frame's range of α.
 layout(local_size_x = 1) in;
 layout(constant_id = 3) const uint k_phase = 0;
-layout(std430, binding = k_phi_range_storage) buffer PhiRange {
-  uint largest_order;
-  float phi_growth;
-};
-layout(constant_id = 0) const uint k_alpha_count = 512;
 
 const uint k_steps = 128u;
 const float k_most_growth = 4.0;  // far shadows keep at least a third of the density that equal cells would give them
 
 void main() {
-  float phi_max = angle_from_order(uintBitsToFloat(largest_order));
+  float phi_max = largest_phi();
   float complement = k_pi - (space.alpha_min + 0.5 * float(k_alpha_count) * space.alpha_step);
   float density[k_steps];
   float total = 0.0;

@@ -21,3 +21,4 @@ inline std::filesystem::path path(const char* variable, const char* built) {
   airlight::tests::path("AIRLIGHT_EXPECTED_IMAGES", AIRLIGHT_BUILT_EXPECTED_IMAGES)
 #define AIRLIGHT_SCHEMA airlight::tests::path("AIRLIGHT_SCHEMA", AIRLIGHT_BUILT_SCHEMA)
 #define AIRLIGHT_SHOT_HEADER airlight::tests::path("AIRLIGHT_SHOT_HEADER", AIRLIGHT_BUILT_SHOT_HEADER)
+#define AIRLIGHT_README airlight::tests::path("AIRLIGHT_README", AIRLIGHT_BUILT_README)

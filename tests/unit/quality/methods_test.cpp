@@ -1,10 +1,17 @@
 #include "quality/methods.h"
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "media/vsv.h"
 #include "scene/error.h"
+#include "support/paths.h"
 
 namespace airlight::quality {
 namespace {
@@ -145,6 +152,48 @@ TYPED_TEST(Registry, DescribesEveryMethodAndOptionOnce) {
   }
   std::sort(names.begin(), names.end());
   EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
+}
+
+std::string read_text(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+TEST(MethodTables, OfTheReadmeAreTheMethodsOwn) {
+  const std::string readme = read_text(AIRLIGHT_README);
+  const std::string begin = "a test compares. -->\n\n", end = "\n<!-- end of the tables -->";
+  const std::size_t from = readme.find(begin), to = readme.find(end);
+  ASSERT_LT(from, to);
+  const std::size_t start = from + begin.size();
+  EXPECT_EQ(readme.substr(start, to - start), method_tables()) << "copy the second over the first";
+}
+
+/// The part of the schema that a method's options are.
+nlohmann::json schema_of(const auto& methods) {
+  nlohmann::json properties = nlohmann::json::object();
+  for (const auto& method : methods) {
+    for (const frame::Option& option : method.options) {
+      nlohmann::json property = {{"description", fmt::format("{}: {}.", method.name, option.text.meaning)}};
+      if (const auto* words = std::get_if<frame::Words>(&option.values)) {
+        property["type"] = "string";
+        for (const frame::Word& word : *words) property["enum"].push_back(word.word);
+      } else {
+        property["type"] = "integer";
+        property["minimum"] = std::get<frame::Counts>(option.values).least;
+      }
+      properties[std::string(option.text.name)] = property;
+    }
+  }
+  return properties;
+}
+
+TEST(ResultsSchema, KnowsTheOptionsOfTheMethods) {
+  const auto schema = nlohmann::json::parse(read_text(AIRLIGHT_SCHEMA));
+  const auto& run = schema["properties"]["runs"]["items"]["properties"];
+  EXPECT_EQ(run["settings"]["properties"], schema_of(volume_methods()))
+      << schema_of(volume_methods()).dump(2);
+  EXPECT_EQ(run["surface_settings"]["properties"], schema_of(surface_methods()))
+      << schema_of(surface_methods()).dump(2);
 }
 
 scene::Geometry open_triangle() {

@@ -9,7 +9,6 @@
 
 #include "spirv/epipolar/populate_conservative_comp.h"
 #include "spirv/epipolar/populate_screen_space_comp.h"
-#include "spirv/epipolar/populate_screen_space_queue_comp.h"
 
 /// What is PRECISE in shaders/ is so in what the driver is given: SPIR-V forbids reordering and fusing by
 /// NoContraction, which glslang puts on sums and products, but not on a dot product, and not across calls.
@@ -77,17 +76,14 @@ TEST(Precise, PositionsAndSinesAreNotReordered) {
   expect_precise(k_populate_conservative_comp, {"eye_relative", "less_half_turns", "sine_of_quarter"});
 }
 
-TEST(Precise, WhichSideOfAnEdgeARayPassesIsTheSameInBothPrograms) {
-  for (const std::span<const std::uint32_t> words :
-       {std::span<const std::uint32_t>(k_populate_screen_space_comp),
-        std::span<const std::uint32_t>(k_populate_screen_space_queue_comp)}) {
-    expect_precise(words, {"eye_relative", "ordered_dot", "make_edge", "less_half_turns", "sine_of_quarter",
-                           "sine", "cosine", "row_angle", "row_ray"});
-    // What calls them adds nothing of its own.
-    const std::map<std::string, Arithmetic> functions = arithmetic_of(words);
-    EXPECT_FALSE(functions.contains("corner"));
-    EXPECT_FALSE(functions.contains("is_left"));
-  }
+TEST(Precise, WhichSideOfAnEdgeARayPassesIsTheSameInAllPasses) {
+  const std::span<const std::uint32_t> words = k_populate_screen_space_comp;
+  expect_precise(words, {"eye_relative", "ordered_dot", "make_edge", "less_half_turns", "sine_of_quarter",
+                         "sine", "cosine", "row_angle", "row_ray"});
+  // What calls them adds nothing of its own.
+  const std::map<std::string, Arithmetic> functions = arithmetic_of(words);
+  EXPECT_FALSE(functions.contains("corner"));
+  EXPECT_FALSE(functions.contains("is_left"));
 }
 
 TEST(Precise, AreNotAllFunctions) {
