@@ -52,7 +52,7 @@ AirlightError airlight_error(std::span<const float> x, std::span<const float> r)
   if (x.empty()) throw scene::Error(scene::ExitCode::bad_file, "images to compare", "they have no pixels");
 
   const auto count = static_cast<double>(x.size());
-  double sum_x = 0.0, sum_r = 0.0, sum_squares = 0.0, sum_absolute = 0.0, largest_r = 0.0;
+  double sum_x = 0.0, sum_r = 0.0, sum_squares = 0.0, sum_absolute = 0.0;
   std::vector<double> differences(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double difference = static_cast<double>(x[i]) - static_cast<double>(r[i]);
@@ -61,7 +61,6 @@ AirlightError airlight_error(std::span<const float> x, std::span<const float> r)
     sum_r += static_cast<double>(r[i]);
     sum_squares += difference * difference;
     sum_absolute += std::abs(difference);
-    largest_r = std::max(largest_r, static_cast<double>(r[i]));
   }
   const double mean_r = sum_r / count;
 
@@ -83,8 +82,6 @@ AirlightError airlight_error(std::span<const float> x, std::span<const float> r)
   error.relmse = sum_relative_squares / count;
   error.leaked = relative(0.5 * (sum_absolute + (sum_x - sum_r)) / count, mean_r);
   error.spurious = relative(0.5 * (sum_absolute - (sum_x - sum_r)) / count, mean_r);
-  error.psnr =
-      error.rmse == 0.0 ? std::numeric_limits<double>::infinity() : 20.0 * std::log10(largest_r / error.rmse);
   return error;
 }
 

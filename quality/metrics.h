@@ -15,7 +15,6 @@ struct AirlightError {
   double relmse;    ///< mean((x − r)² / (r² + ε)), ε = 1e-2 · mean(r)²
   double leaked;    ///< Σ max(0, x − r) / Σ r: light where there is none
   double spurious;  ///< Σ max(0, r − x) / Σ r: shadow where there is none
-  double psnr;      ///< 20·log10(max(r) / rmse) [dB]; +Inf for equal images
 };
 
 /// Compares two images of the same length, any channel layout.

@@ -758,6 +758,16 @@ TEST_F(Compare, SurfaceMethodsHaveSettingsOfTheirOwn) {
   EXPECT_EQ(image.metadata.at("airlight.surface.alpha"), "64");
 }
 
+TEST_F(Compare, KeepsTheTruthWhereItIsTold) {
+  const auto reference = [&] { return compare({"--volume", "none", "--cache", "kept"})["reference"]; };
+  const Json traced = reference();
+  EXPECT_EQ(reference(), traced) << "its time, too, is that of tracing it";
+  EXPECT_EQ(std::distance(fs::directory_iterator(file("kept")), fs::directory_iterator()), 2);
+  const Image image = render({"--volume", "reference", "--surface", "reference", "--cache", "kept"});
+  EXPECT_EQ(image.channels.at("airlight.R"),
+            quality::read_exr(file("out/reference.exr")).channels.at("airlight.R"));
+}
+
 TEST_F(Compare, JudgesByTheReference) {
   const Json results = compare({"--volume", "none,vsv,reference,reference-march", "--surface", "reference"});
   const Json &none = results["runs"][0], &vsv = results["runs"][1], &reference = results["runs"][2],
