@@ -3,21 +3,14 @@
 #include <algorithm>
 
 namespace airlight::frame {
-namespace {
 
-/// The depth at which a pyramid at `apex` starts to order surfaces. As large as the scene allows, because
-/// depth is interpolated on triangles that reach up to it; not smaller than 1e-4 of the distance between eye
-/// and light, where single precision on a triangle that passes the apex would leave no digits.
 float near_depth(const SceneBuffers& scene, glm::dvec3 apex, double eye_light_distance) {
   // The nearest point may lie in the corner of a cube face, where depth is 1/√3 of distance.
   const double nearest = 0.5 * scene.distance_to(apex);
   return static_cast<float>(std::clamp(nearest, 1e-4 * eye_light_distance, eye_light_distance));
 }
 
-}  // namespace
-
-shaders::CameraBlock camera_block(const SceneBuffers& scene, const scene::CameraFrame& camera,
-                                  glm::ivec2 image_size, double light_distance) {
+shaders::CameraBlock camera_block(const scene::CameraFrame& camera, glm::ivec2 image_size, float near) {
   const glm::vec3 eye_high(camera.eye);
   shaders::CameraBlock block{};
   block.eye_high = eye_high;
@@ -29,16 +22,14 @@ shaders::CameraBlock camera_block(const SceneBuffers& scene, const scene::Camera
   block.forward = glm::vec3(camera.forward);
   block.image_width = static_cast<float>(image_size.x);
   block.image_height = static_cast<float>(image_size.y);
-  block.near = near_depth(scene, camera.eye, light_distance);
+  block.near = near;
   return block;
 }
 
-shaders::LightBlock light_block(const SceneBuffers& scene, const scene::Light& light, glm::dvec3 eye,
-                                int shadow_map_size) {
-  const glm::dvec3 from_eye = light.position - eye;
+shaders::LightBlock light_block(const scene::Light& light, glm::dvec3 eye, float near, int shadow_map_size) {
   shaders::LightBlock block{};
-  block.from_eye = glm::vec3(from_eye);
-  block.near = near_depth(scene, light.position, glm::length(from_eye));
+  block.from_eye = glm::vec3(light.position - eye);
+  block.near = near;
   block.intensity = light.intensity;
   block.shadow_map_size = static_cast<float>(shadow_map_size);
   return block;

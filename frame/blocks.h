@@ -17,15 +17,20 @@ static_assert(sizeof(CameraBlock) == 80 && sizeof(LightBlock) == 32 && sizeof(Me
 
 namespace airlight::frame {
 
+/// The depth [m] at which a pyramid at `apex`, the eye or the light, starts to order surfaces. As large as the
+/// scene allows, because depth is interpolated on triangles that reach up to it; not smaller than 1e-4 of the
+/// distance between eye and light, where single precision on a triangle that passes the apex would leave no
+/// digits.
+float near_depth(const SceneBuffers& scene, glm::dvec3 apex, double eye_light_distance);
+
 // The uniform blocks of a frame.
 
-/// @param light_distance from the eye to the nearest light [m]
-shaders::CameraBlock camera_block(const SceneBuffers& scene, const scene::CameraFrame& camera,
-                                  glm::ivec2 image_size, double light_distance);
+/// @param near see CameraBlock
+shaders::CameraBlock camera_block(const scene::CameraFrame& camera, glm::ivec2 image_size, float near);
 
+/// @param near see LightBlock
 /// @param shadow_map_size side of a cube face [texels]
-shaders::LightBlock light_block(const SceneBuffers& scene, const scene::Light& light, glm::dvec3 eye,
-                                int shadow_map_size);
+shaders::LightBlock light_block(const scene::Light& light, glm::dvec3 eye, float near, int shadow_map_size);
 
 shaders::MediumBlock medium_block(const scene::Medium& medium);
 

@@ -101,16 +101,18 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
 
   // What the camera sees.
   timer.time("surfaces", [&] {
-    write_block(camera_block_, camera_block(scene, camera, view.size, distance_to_nearest_light(view)),
-                shaders::k_camera_block);
+    const float near = near_depth(scene, camera.eye, distance_to_nearest_light(view));
+    write_block(camera_block_, camera_block(camera, view.size, near), shaders::k_camera_block);
     write_block(medium_block_, medium_block(view.medium), shaders::k_medium_block);
     gbuffer_->draw(scene, camera);
   });
 
   // What each light adds.
   for (std::size_t i = 0; i < view.lights.size(); ++i) {
-    resources_.begin_light(view.lights[i]);
-    write_block(light_block_, light_block(scene, view.lights[i], camera.eye, resources_.shadow_map_size()),
+    const scene::Light& light = view.lights[i];
+    resources_.begin_light(light);
+    const float near = near_depth(scene, light.position, glm::distance(light.position, camera.eye));
+    write_block(light_block_, light_block(light, camera.eye, near, resources_.shadow_map_size()),
                 shaders::k_light_block);
     const FrameInputs inputs{.context = context_,
                              .view = view,

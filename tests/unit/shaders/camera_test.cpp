@@ -12,19 +12,8 @@ namespace {
 
 using tests::Random;
 
-CameraBlock make_camera(const scene::Camera& of, glm::ivec2 size) {
-  const scene::CameraFrame frame = scene::camera_frame(of, size);
-  CameraBlock camera{};
-  camera.eye_high = glm::vec3(frame.eye);
-  camera.eye_low = glm::vec3(frame.eye - glm::dvec3(camera.eye_high));
-  camera.half_width = static_cast<float>(frame.half_width);
-  camera.half_height = static_cast<float>(frame.half_height);
-  camera.right = glm::vec3(frame.right);
-  camera.up = glm::vec3(frame.up);
-  camera.forward = glm::vec3(frame.forward);
-  camera.image_width = static_cast<float>(size.x);
-  camera.image_height = static_cast<float>(size.y);
-  return camera;
+CameraBlock make_camera(const scene::Camera& pinhole, glm::ivec2 size) {
+  return frame::camera_block(scene::camera_frame(pinhole, size), size, 0.1f);
 }
 
 TEST(ViewRay, GoesThroughTheCentreAndTheCorners) {
