@@ -1,12 +1,14 @@
 #include "epipolar/debug_images.h"
 
-#include <bit>
 #include <cmath>
+#include <span>
 
 #include <gtest/gtest.h>
 
 #include "support/frame_probe.h"
+#include "support/grid_bits.h"
 #include "support/scenes.h"
+#include "support/view_rays.h"
 
 namespace airlight::epipolar {
 namespace {
@@ -19,7 +21,7 @@ struct Debugged {
   std::vector<std::uint32_t> bits;  ///< after the scan
   std::vector<glm::vec4> surfaces;
   shaders::EpipolarBlock space;
-  float phi_max;
+  shaders::PhiCells cells;
 };
 
 Debugged debug(const char* scene, glm::ivec2 size, const VolumeOptions& settings) {
@@ -32,7 +34,7 @@ Debugged debug(const char* scene, glm::ivec2 size, const VolumeOptions& settings
     volume.fill(inputs);
     debugged.bits = volume.grid().bits().read<std::uint32_t>();
     debugged.surfaces = inputs.surfaces.read<glm::vec4>();
-    debugged.phi_max = shaders::angle_from_order(volume.grid().phi_range().read<float>().at(0));
+    debugged.cells = tests::phi_cells(volume);
     const std::vector<frame::DebugImage> images = debug_images(volume, inputs);
     ASSERT_EQ(images.size(), 3u);
     debugged.before = images[0];
@@ -52,8 +54,7 @@ TEST(DebugImages, OfTheGridCountItsBits) {
   ASSERT_EQ(debugged.after.size, glm::ivec2(64, 128));
   ASSERT_EQ(debugged.after.values.size(), 64u * 128u);
   for (std::size_t ray = 0; ray < debugged.after.values.size(); ++ray) {
-    int set = 0;
-    for (std::size_t word = 0; word < 256 / 32; ++word) set += std::popcount(debugged.bits[ray * 8 + word]);
+    const std::size_t set = tests::count_set(std::span(debugged.bits).subspan(8 * ray, 8));
     ASSERT_EQ(debugged.after.values[ray], static_cast<float>(set) / 256.0f) << ray;
   }
 }
@@ -86,32 +87,21 @@ TEST(DebugImages, CountTheShadowedSamplesOfEachPixel) {
     const glm::dvec3 axis(debugged.space.axis), u(debugged.space.u), f(debugged.space.f);
     const double distance = glm::distance(view.lights[0].position, view.camera.eye);
     int counted = 0, shadowed = 0;
-    for (int pixel = 0; pixel < size.x * size.y; ++pixel) {
-      const double x = (2.0 * (pixel % size.x + 0.5) / size.x - 1.0) * camera.half_width;
-      const double y = (1.0 - 2.0 * (pixel / size.x + 0.5) / size.y) * camera.half_height;
-      const glm::dvec3 ray = glm::normalize(camera.forward + x * camera.right + y * camera.up);
+    for (std::size_t pixel = 0; pixel < debugged.surfaces.size(); ++pixel) {
+      const glm::dvec3 ray = tests::pixel_ray(camera, size, pixel);
       const double sine = glm::length(glm::cross(axis, ray)), cosine = glm::dot(axis, ray);
-      const double t = static_cast<double>(debugged.surfaces[static_cast<std::size_t>(pixel)].w);
+      const double t = static_cast<double>(debugged.surfaces[pixel].w);
       const double phi = t > 0 ? std::atan2(t * sine, distance - t * cosine) : std::atan2(sine, -cosine);
-      const double end = phi / static_cast<double>(debugged.phi_max) * 256;
-      const double i = (std::atan2(sine, cosine) - static_cast<double>(debugged.space.alpha_min)) /
-                       static_cast<double>(debugged.space.alpha_step);
-      const double from_middle = std::remainder(
-          std::atan2(glm::dot(ray, f), glm::dot(ray, u)) - static_cast<double>(debugged.space.theta_middle),
-          2 * std::acos(-1.0));
-      const double j =
-          (from_middle + static_cast<double>(debugged.space.theta_growth) * std::sin(from_middle) +
-           static_cast<double>(debugged.space.theta_half)) /
-          static_cast<double>(debugged.space.theta_step);
+      const double end = tests::cells_of_phi(debugged.cells, phi);
+      const double i = tests::cells_of_alpha(debugged.space, std::atan2(sine, cosine));
+      const double j = tests::cells_of_theta(debugged.space, std::atan2(glm::dot(ray, f), glm::dot(ray, u)));
       // Single precision may put a number that is near a border on its other side.
       const auto is_near_border = [](double v) { return std::abs(v - std::round(v)) < 1e-2; };
       if (is_near_border(i) || is_near_border(j) || is_near_border(end - 0.5)) continue;
       int set = 0;
-      for (int k = 0; k < 256 && k + 0.5 < end; ++k) {
-        const int word = (static_cast<int>(j) * 64 + static_cast<int>(i)) * 8 + k / 32;
-        set += static_cast<int>(debugged.bits.at(static_cast<std::size_t>(word)) >> (k % 32) & 1u);
-      }
-      EXPECT_EQ(debugged.samples.values[static_cast<std::size_t>(pixel)], static_cast<float>(set) / 256.0f)
+      for (int k = 0; k < 256 && k + 0.5 < end; ++k)
+        set += tests::is_set(debugged.bits, k_small.resolution, static_cast<int>(i), static_cast<int>(j), k);
+      EXPECT_EQ(debugged.samples.values[pixel], static_cast<float>(set) / 256.0f)
           << scene << ", pixel " << pixel;
       ++counted;
       shadowed += set > 0;
@@ -126,17 +116,16 @@ TEST(DebugImages, OfALongGridAreAveraged) {
   const Debugged debugged = debug("window", {16, 16}, {.resolution = {512, 5000, 512}});
   EXPECT_EQ(debugged.after.size, glm::ivec2(512, 2500));
   for (std::size_t pixel : {std::size_t{300}, std::size_t{512 * 1250 + 100}, std::size_t{512 * 2499 + 511}}) {
-    int set = 0;
+    std::size_t set = 0;
     for (std::size_t row = 0; row < 2; ++row) {
       const std::size_t ray = (pixel / 512 * 2 + row) * 512 + pixel % 512;
-      for (std::size_t word = 0; word < 16; ++word) set += std::popcount(debugged.bits[ray * 16 + word]);
+      set += tests::count_set(std::span(debugged.bits).subspan(16 * ray, 16));
     }
     EXPECT_EQ(debugged.after.values[pixel], static_cast<float>(set) / 1024.0f) << pixel;
   }
   const Debugged odd = debug("window", {16, 16}, {.resolution = {4097, 3, 128}});
   EXPECT_EQ(odd.after.size, glm::ivec2(2049, 3));
-  int set = 0;
-  for (std::size_t word = 0; word < 4; ++word) set += std::popcount(odd.bits[4096 * 4 + word]);
+  const std::size_t set = tests::count_set(std::span(odd.bits).subspan(4096 * 4, 4));
   EXPECT_EQ(odd.after.values[2048], static_cast<float>(set) / 128.0f) << "the last column stands alone";
 }
 

@@ -1,5 +1,6 @@
 #include "frame/frame.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "scene/light_texture.h"
 #include "support/gpu_context.h"
 #include "support/scenes.h"
+#include "support/view_rays.h"
 #include "surface_shadows/shadow_map_lookup.h"
 
 namespace airlight::frame {
@@ -43,14 +45,22 @@ void expect_near(const std::vector<glm::vec3>& image, const std::vector<glm::vec
   }
 }
 
-TEST(Frame, AddsUpItsLights) {
+std::shared_ptr<const scene::LightTexture> two_colours() {
+  return std::make_shared<scene::LightTexture>(
+      "t", glm::ivec2(2, 1), std::vector<glm::vec3>{{1.0f, 0.2f, 0.1f}, {0.0f, 1.0f, 0.5f}});
+}
+
+/// A frame with three lights has to be the sum of three with one each.
+void expect_sum_of_lights(const media::VsvOptions& options,
+                          const std::shared_ptr<const scene::LightTexture>& texture_of_second) {
   const scene::Scene& scene = builtin("cornell");
   scene::View view = view_of(scene, {24, 20});
-  view.lights.push_back(scene::point_light("", {0.5, 0.4, 0.3}, {0.2f, 0.3f, 0.9f}));
+  view.lights.push_back(scene::point_light("", {0.5, 1.4, 0.3}, {0.2f, 0.3f, 0.9f}));
   view.lights.push_back(scene::point_light("", {-0.5, 1.2, 1.5}, {0.5f, 0.1f, 0.1f}));
+  view.lights[1].texture = texture_of_second;
   Frame frame(gpu_context(), scene.geometry, 256);
   ShadowMapLookup shadow;
-  media::Vsv vsv = small_vsv();
+  media::Vsv vsv(gpu_context(), options);
   const FrameImages all = render(frame, view, shadow, vsv);
   ASSERT_EQ(all.visibility.size(), 3u);
 
@@ -59,6 +69,9 @@ TEST(Frame, AddsUpItsLights) {
     scene::View alone = view;
     alone.lights = {view.lights[light]};
     const FrameImages one = render(frame, alone, shadow, vsv);
+    EXPECT_TRUE(std::any_of(one.airlight.begin(), one.airlight.end(),
+                            [](const glm::vec3& value) { return value.g > 0.0f; }))
+        << "light " << light << " is inside of something";
     for (std::size_t i = 0; i < radiance.size(); ++i) {
       radiance[i] += one.radiance[i];
       airlight[i] += one.airlight[i];
@@ -67,6 +80,20 @@ TEST(Frame, AddsUpItsLights) {
   }
   expect_near(all.radiance, radiance, 1e-6);
   expect_near(all.airlight, airlight, 1e-6);
+}
+
+TEST(Frame, AddsUpItsLights) {
+  expect_sum_of_lights({.volume = {.resolution = {64, 128, 128}}}, nullptr);
+}
+
+TEST(Frame, AddsUpItsLightsOfAConservativeGrid) {
+  expect_sum_of_lights(
+      {.volume = {.resolution = {64, 128, 128}, .populate = epipolar::Populate::conservative}}, nullptr);
+}
+
+TEST(Frame, AddsUpATexturedLightAndOthers) {
+  expect_sum_of_lights({.integral = media::VsvIntegral::riemann, .volume = {.resolution = {64, 128, 128}}},
+                       two_colours());
 }
 
 /// Lets an amount through that is the same everywhere.
@@ -113,8 +140,6 @@ TEST(Frame, RemembersNothingOfTheFramesBefore) {
   Frame kept(gpu_context(), scene.geometry, 256);
   ShadowMapLookup shadow;
   media::Vsv kept_vsv = small_vsv(media::VsvIntegral::riemann);
-  const auto texture = std::make_shared<scene::LightTexture>(
-      "t", glm::ivec2(2, 1), std::vector<glm::vec3>{{1.0f, 0.2f, 0.1f}, {0.0f, 1.0f, 0.5f}});
   const std::vector<std::pair<const char*, std::function<void(scene::View&)>>> changes = {
       {"nothing", [](scene::View&) {}},
       {"camera", [](scene::View& view) { view.camera.eye += glm::dvec3(0.3, -0.1, -0.5); }},
@@ -126,7 +151,7 @@ TEST(Frame, RemembersNothingOfTheFramesBefore) {
        [](scene::View& view) {
          view.lights.push_back(scene::point_light("", {-0.6, 0.3, 0.9}, {0.1f, 0.2f, 0.9f}));
        }},
-      {"texture", [&](scene::View& view) { view.lights[1].texture = texture; }},
+      {"texture", [](scene::View& view) { view.lights[1].texture = two_colours(); }},
       {"size",
        [](scene::View& view) {
          view.size = {20, 33};
@@ -181,9 +206,7 @@ TEST(Frame, ShadesALambertSurfaceByItsClosedForm) {
   int seen = 0;
   for (int y = 0; y < 16; ++y) {
     for (int x = 0; x < 16; ++x) {
-      const glm::dvec3 ray =
-          glm::normalize(camera.forward + ((x + 0.5) / 8 - 1) * camera.half_width * camera.right +
-                         (1 - (y + 0.5) / 8) * camera.half_height * camera.up);
+      const glm::dvec3 ray = tests::pixel_ray(camera, view.size, x, y);
       const double d = -camera.eye.y / ray.y;
       if (d <= 0 || d > 40) continue;
       ++seen;

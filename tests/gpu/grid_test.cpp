@@ -1,9 +1,9 @@
 #include "epipolar/grid.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <tuple>
 
 #include <gmock/gmock.h>
@@ -14,6 +14,7 @@
 #include "reference/visibility.h"
 #include "scene/error.h"
 #include "support/frame_probe.h"
+#include "support/grid_bits.h"
 #include "support/random.h"
 #include "support/scenes.h"
 
@@ -80,10 +81,7 @@ TEST(Grid, LargerThanOneStorageBufferIsFilledWindowByWindow) {
         // A plane at either side of the windows' border holds about as many bits as its neighbour.
         const std::size_t words = std::size_t{512} * 512 / 32;
         const auto set_in = [&](std::size_t plane) {
-          std::size_t set = 0;
-          for (std::size_t word = 0; word < words; ++word)
-            set += static_cast<std::size_t>(std::popcount(fused[plane * words + word]));
-          return static_cast<double>(set);
+          return static_cast<double>(tests::count_set(std::span(fused).subspan(plane * words, words)));
         };
         for (std::size_t plane = 1; plane < 5120; ++plane)
           EXPECT_NEAR(set_in(plane), set_in(plane - 1), 0.05 * 32 * static_cast<double>(words)) << plane;
@@ -186,8 +184,7 @@ class BitsOf {
       ShadowVolume volume(inputs.context.limits(), {.resolution = n, .ranges = Ranges::alpha_phi});
       tests::build(volume, inputs, k_growth);
       bits_ = volume.grid().bits().read<std::uint32_t>();
-      phi_max_ =
-          static_cast<double>(shaders::angle_from_order(volume.grid().phi_range().read<float>().at(0)));
+      phi_max_ = static_cast<double>(tests::phi_cells(volume).phi_max);
     });
     alpha_ = alpha_range(scene::camera_frame(view.camera, view.size), axes_.axis);
   }
@@ -199,13 +196,7 @@ class BitsOf {
     return phi_max_ * x * (1 + growth * x) / (1 + growth);
   }
 
-  bool bit(int i, int j, int k) const {
-    const auto word =
-        (static_cast<std::size_t>(j) * static_cast<std::size_t>(n_.alpha) + static_cast<std::size_t>(i)) *
-            static_cast<std::size_t>(n_.phi / 32) +
-        static_cast<std::size_t>(k / 32);
-    return (bits_[word] >> (k % 32) & 1u) != 0;
-  }
+  bool bit(int i, int j, int k) const { return tests::is_set(bits_, n_, i, j, k); }
 
   /// Whether the light sees the point (α, θ, φ), which may be infinitely far.
   bool is_shadowed(double alpha, double theta, double phi) const {

@@ -1,7 +1,5 @@
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <numbers>
 #include <ostream>
 
 #include <gtest/gtest.h>
@@ -10,6 +8,7 @@
 #include "epipolar/volume.h"
 #include "scene/import.h"
 #include "support/frame_probe.h"
+#include "support/grid_bits.h"
 #include "support/random.h"
 #include "support/scenes.h"
 #include "support/truth.h"
@@ -52,20 +51,13 @@ class Grids {
                            (a - b) * glm::dvec3(geometry_.positions[triangle.y]) +
                            b * glm::dvec3(geometry_.positions[triangle.z]) - eye;
       const double x = glm::dot(p, axes.u), y = glm::dot(p, axes.f), z = glm::dot(p, axes.axis);
-      const double q = (1.0 + static_cast<double>(k_growth)) * std::atan2(std::hypot(x, y), D - z) / phi_max_;
-      const double k = n.phi * 2 * q / (1 + std::sqrt(1 + 4 * static_cast<double>(k_growth) * q));
-      const double i = (std::atan2(std::hypot(x, y), z) - static_cast<double>(space_.alpha_min)) /
-                       static_cast<double>(space_.alpha_step);
-      const double from_middle =
-          std::remainder(std::atan2(y, x) - static_cast<double>(space_.theta_middle), 2 * std::numbers::pi);
-      const double j = (from_middle + static_cast<double>(space_.theta_growth) * std::sin(from_middle) +
-                        static_cast<double>(space_.theta_half)) /
-                       static_cast<double>(space_.theta_step);
+      const double i = tests::cells_of_alpha(space_, std::atan2(std::hypot(x, y), z));
+      const double j = tests::cells_of_theta(space_, std::atan2(y, x));
+      const double k = tests::cells_of_phi(cells_, std::atan2(std::hypot(x, y), D - z));
       if (i >= n.alpha || j < 0 || j >= n.theta || k >= n.phi) continue;
       ++inside;
-      const auto cell = static_cast<std::size_t>(std::max(i, 0.0)), plane = static_cast<std::size_t>(j);
-      const std::size_t bit = (plane * 128 + cell) * 256 + static_cast<std::size_t>(k);
-      missed += (bits_[bit / 32] >> bit % 32 & 1u) != 0 ? 0 : 1;
+      missed += !tests::is_set(bits_, n, static_cast<int>(std::max(i, 0.0)), static_cast<int>(j),
+                               static_cast<int>(k));
     }
     return {inside, missed};
   }
@@ -75,21 +67,19 @@ class Grids {
     ShadowVolume volume(inputs.context.limits(), {.resolution = k_resolution, .populate = populate});
     tests::build(volume, inputs, k_growth);
     space_ = volume.grid().block().read<shaders::EpipolarBlock>().at(0);
-    phi_max_ = static_cast<double>(shaders::angle_from_order(volume.grid().phi_range().read<float>().at(0)));
+    cells_ = tests::phi_cells(volume);
     return volume.grid().bits().read<std::uint32_t>();
   }
 
   static double fraction(const std::vector<std::uint32_t>& bits) {
-    std::size_t set = 0;
-    for (std::uint32_t word : bits) set += static_cast<std::size_t>(std::popcount(word));
-    return static_cast<double>(set) / (32.0 * static_cast<double>(bits.size()));
+    return static_cast<double>(tests::count_set(bits)) / (32.0 * static_cast<double>(bits.size()));
   }
 
   const scene::Geometry& geometry_;
   scene::View view_;
   std::vector<std::uint32_t> bits_, from_shadow_map_;
   shaders::EpipolarBlock space_{};
-  double phi_max_ = 0;
+  shaders::PhiCells cells_{};
 };
 
 void expect_conservative(const scene::Geometry& geometry, const scene::View& view) {

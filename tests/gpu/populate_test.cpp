@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numbers>
 #include <ostream>
@@ -9,7 +8,9 @@
 #include "epipolar/space.h"
 #include "epipolar/volume.h"
 #include "support/frame_probe.h"
+#include "support/grid_bits.h"
 #include "support/scenes.h"
+#include "support/view_rays.h"
 
 /// PopulateShadowMap with every scan, and the range of φ that it needs.
 namespace airlight::epipolar {
@@ -45,8 +46,7 @@ TEST_P(ScansOf, AllWriteTheSameBits) {
     const std::vector<std::uint32_t> column = bits_of(inputs, resolution, Scan::column);
     EXPECT_TRUE(fused == column);
     EXPECT_TRUE(bits_of(inputs, resolution, Scan::multi_pass) == column);
-    std::size_t set = 0;
-    for (std::uint32_t word : fused) set += static_cast<std::size_t>(std::popcount(word));
+    const std::size_t set = tests::count_set(fused);
     const std::size_t all = 32 * fused.size();
     if (scene.geometry.triangles.empty()) {
       EXPECT_EQ(set, 0u);
@@ -101,9 +101,7 @@ double largest_phi(const scene::View& view, const std::vector<float>& distance) 
   double largest = 0.0;
   for (int y = 0; y < size.y; ++y) {
     for (int x = 0; x < size.x; ++x) {
-      const glm::dvec3 ray =
-          glm::normalize(camera.forward + (2 * (x + 0.5) / size.x - 1) * camera.half_width * camera.right +
-                         (1 - 2 * (y + 0.5) / size.y) * camera.half_height * camera.up);
+      const glm::dvec3 ray = tests::pixel_ray(camera, size, x, y);
       const double sine = std::max(glm::length(glm::cross(to_light, ray)) / D, quarter);
       const double cosine = glm::dot(to_light, ray) / D;
       const auto t = static_cast<double>(distance[static_cast<std::size_t>(y * size.x + x)]);

@@ -7,6 +7,7 @@
 
 #include "support/render.h"
 #include "support/scenes.h"
+#include "support/view_rays.h"
 #include "unit/reference/fixtures.h"
 
 /// Scenes whose airlight is known without a renderer: the integral over the distance along each view ray,
@@ -15,11 +16,6 @@ namespace airlight {
 namespace {
 
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
-
-glm::dvec3 ray_of(const scene::CameraFrame& camera, glm::ivec2 size, int x, int y) {
-  return glm::normalize(camera.forward + (2 * (x + 0.5) / size.x - 1) * camera.half_width * camera.right +
-                        (1 - 2 * (y + 0.5) / size.y) * camera.half_height * camera.up);
-}
 
 struct Lit {
   double from, to;
@@ -42,7 +38,7 @@ std::vector<glm::vec3> expected_image(const scene::View& view, const LitParts& l
   std::vector<glm::vec3> image;
   for (int y = 0; y < view.size.y; ++y) {
     for (int x = 0; x < view.size.x; ++x) {
-      const glm::dvec3 ray = ray_of(camera, view.size, x, y);
+      const glm::dvec3 ray = tests::pixel_ray(camera, view.size, x, y);
       image.emplace_back(static_cast<float>(airlight(view, ray, lit_parts(camera.eye, ray))));
     }
   }

@@ -6,6 +6,7 @@
 
 #include "support/render.h"
 #include "support/scenes.h"
+#include "support/view_rays.h"
 
 /// `integral=factored`: the unshadowed integral times the lit fraction of the samples.
 namespace airlight {
@@ -41,10 +42,7 @@ TEST(Factored, IsTheLitFractionOfTheAnglesTimesTheUnshadowedAirlight) {
   double largest = 0.0;
   for (std::size_t i = 0; i < images.airlight.size(); ++i) {
     if (images.distance[i] > 0.0f) continue;
-    const int x = static_cast<int>(i) % view.size.x, y = static_cast<int>(i) / view.size.x;
-    const glm::dvec3 ray =
-        glm::normalize(camera.forward + (2 * (x + 0.5) / view.size.x - 1) * camera.half_width * camera.right +
-                       (1 - 2 * (y + 0.5) / view.size.y) * camera.half_height * camera.up);
+    const glm::dvec3 ray = tests::pixel_ray(camera, view.size, i);
     double fraction = 1.0;
     if (ray.x < 0 && camera.eye.y - camera.eye.x / ray.x * ray.y < 0) {
       const double alpha = std::atan2(glm::length(glm::cross(to_light, ray)), glm::dot(to_light, ray));
@@ -54,7 +52,7 @@ TEST(Factored, IsTheLitFractionOfTheAnglesTimesTheUnshadowedAirlight) {
     // The end of the ray and the shadow's edge are each known to a cell in φ, of 512 over at most π; the
     // edge to one in α as well; and the cells of a word of 32 are taken to be equal.
     const double difference = static_cast<double>(images.airlight[i].y / unshadowed[i].y) - fraction;
-    EXPECT_NEAR(difference, 0.0, 0.01) << x << " " << y;
+    EXPECT_NEAR(difference, 0.0, 0.01) << i;
     largest = std::max(largest, std::abs(difference));
   }
   RecordProperty("largest", std::to_string(largest));

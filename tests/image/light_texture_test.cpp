@@ -10,6 +10,7 @@
 #include "scene/light_texture.h"
 #include "support/render.h"
 #include "support/scenes.h"
+#include "support/view_rays.h"
 
 /// A light textured by direction, in surfaces and airlight.
 namespace airlight {
@@ -119,10 +120,7 @@ TEST(TexturedLight, HalfBlackAgreesWithTheReference) {
   int bright = 0, dark = 0;
   for (std::size_t i = 0; i < images.radiance.size(); ++i) {
     if (images.distance[i] == 0.0f) continue;
-    const int x = static_cast<int>(i) % view.size.x, y = static_cast<int>(i) / view.size.x;
-    const glm::dvec3 ray =
-        glm::normalize(camera.forward + (2 * (x + 0.5) / view.size.x - 1) * camera.half_width * camera.right +
-                       (1 - 2 * (y + 0.5) / view.size.y) * camera.half_height * camera.up);
+    const glm::dvec3 ray = tests::pixel_ray(camera, view.size, i);
     const glm::dvec3 d = camera.eye + static_cast<double>(images.distance[i]) * ray - view.lights[0].position;
     const double longitude = std::atan2(d.x, d.z), edge = 2 * std::numbers::pi / 64;
     const bool is_near_an_edge = std::abs(longitude) < edge || std::abs(longitude) > std::numbers::pi - edge;

@@ -6,6 +6,7 @@
 
 #include "epipolar/space.h"
 #include "support/render.h"
+#include "support/view_rays.h"
 #include "unit/reference/fixtures.h"
 
 namespace airlight {
@@ -29,10 +30,7 @@ TEST(Seam, AtPlusMinusPiIsAsGoodAsElsewhere) {
   for (std::size_t i = 0; i < images.airlight.size(); ++i) {
     if (std::abs(images.distance[i] - truth.surfaces.distance[i]) > 1e-3f * truth.surfaces.distance[i])
       continue;
-    const int x = static_cast<int>(i) % view.size.x, y = static_cast<int>(i) / view.size.x;
-    const glm::dvec3 ray = camera.forward +
-                           (2 * (x + 0.5) / view.size.x - 1) * camera.half_width * camera.right +
-                           (1 - 2 * (y + 0.5) / view.size.y) * camera.half_height * camera.up;
+    const glm::dvec3 ray = tests::pixel_ray(camera, view.size, i);
     const auto theta = static_cast<double>(shaders::theta_of(space, glm::vec3(ray)));
     const auto band = static_cast<std::size_t>(
         std::lround((theta + std::numbers::pi) / (2 * std::numbers::pi) * bands) % bands);

@@ -39,12 +39,25 @@ inline std::vector<float> distances(const frame::FrameInputs& inputs) {
   return distances;
 }
 
-/// Builds a shadow volume whose cells in φ grow by `growth` (shaders/epipolar/grid.glsl).
-inline void build(epipolar::ShadowVolume& volume, const frame::FrameInputs& inputs, float growth) {
-  volume.find_ranges(inputs);
+/// Makes a shadow volume's cells in φ, whose ranges are found, grow by `growth` (shaders/epipolar/grid.glsl).
+inline void set_growth(const epipolar::ShadowVolume& volume, float growth) {
   std::vector<float> range = volume.grid().phi_range().read<float>();
   range.at(1) = growth;
   volume.grid().phi_range().write(range.data(), volume.grid().phi_range().bytes());
+}
+
+/// How such a volume cuts φ.
+inline shaders::PhiCells phi_cells(const epipolar::ShadowVolume& volume) {
+  const std::vector<float> range = volume.grid().phi_range().read<float>();
+  return {.phi_max = shaders::angle_from_order(range.at(0)),
+          .growth = range.at(1),
+          .count = static_cast<float>(volume.grid().resolution().phi)};
+}
+
+/// Builds a shadow volume whose cells in φ grow.
+inline void build(epipolar::ShadowVolume& volume, const frame::FrameInputs& inputs, float growth) {
+  volume.find_ranges(inputs);
+  set_growth(volume, growth);
   volume.fill(inputs);
 }
 

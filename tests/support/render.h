@@ -25,6 +25,7 @@ struct VsvSettings {
   epipolar::Populate populate = epipolar::Populate::shadow_map;
   epipolar::Ranges ranges = epipolar::Ranges::frame;
   media::PhiCells phi_cells = media::PhiCells::growing;
+  epipolar::ThetaCells theta_cells = epipolar::ThetaCells::fitted;
   bool surface_shadows = false;  ///< by the shadow map; else every surface is lit
 };
 
@@ -36,7 +37,8 @@ inline frame::FrameImages render_vsv(const scene::Geometry& geometry, const scen
                                  .volume = {.resolution = settings.resolution,
                                             .populate = settings.populate,
                                             .scan = settings.scan,
-                                            .ranges = settings.ranges}});
+                                            .ranges = settings.ranges,
+                                            .theta_cells = settings.theta_cells}});
   frame::NoShadow no_shadow;
   surface_shadows::ShadowMapLookup lookup;
   gpu::StageTimer timer(nullptr);

@@ -8,6 +8,7 @@
 
 #include "scene/scene.h"
 #include "support/random.h"
+#include "support/view_rays.h"
 
 namespace airlight::epipolar {
 namespace {
@@ -113,16 +114,13 @@ scene::CameraFrame look(glm::dvec3 forward, double fov, glm::ivec2 size) {
   return scene::camera_frame(camera, size);
 }
 
-glm::dvec3 ray_at(const scene::CameraFrame& camera, double x, double y) {
-  return camera.forward + x * camera.half_width * camera.right + y * camera.half_height * camera.up;
-}
-
 /// Brute force: the angles of a fine lattice over the image.
 Range scan(const scene::CameraFrame& camera, glm::dvec3 axis, int steps) {
   Range range{10, 0};
   for (int i = 0; i <= steps; ++i) {
     for (int j = 0; j <= steps; ++j) {
-      const double angle = angle_between(axis, ray_at(camera, 2.0 * i / steps - 1, 2.0 * j / steps - 1));
+      const double angle =
+          angle_between(axis, tests::view_ray(camera, 2.0 * i / steps - 1, 2.0 * j / steps - 1));
       range.lower = std::min(range.lower, angle);
       range.upper = std::max(range.upper, angle);
     }
@@ -170,7 +168,7 @@ TEST(AlphaRange, HoldsWhereTheEpipoleIsOnAnEdgeOrACorner) {
   const auto camera = look({1, 0.2, -1}, 60, {80, 50});
   for (double sign : {1.0, -1.0}) {
     for (const auto& [x, y] : {std::pair{1.0, 0.0}, {1.0, 0.37}, {-0.2, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}) {
-      const glm::dvec3 axis = sign * glm::normalize(ray_at(camera, x, y));
+      const glm::dvec3 axis = sign * tests::view_ray(camera, x, y);
       expect_range(camera, axis);
       const Range range = alpha_range(camera, axis);
       // Whether the axis counts as inside is a matter of rounding; the range reaches it either way.
@@ -241,8 +239,7 @@ TEST(ThetaRange, HoldsEveryRayAndTouchesSome) {
     double farthest = 0.0;
     for (int i = 0; i <= 40; ++i) {
       for (int j = 0; j <= 40; ++j) {
-        const glm::dvec3 ray = camera.forward + (i / 20.0 - 1) * camera.half_width * camera.right +
-                               (j / 20.0 - 1) * camera.half_height * camera.up;
+        const glm::dvec3 ray = tests::view_ray(camera, i / 20.0 - 1, j / 20.0 - 1);
         const double from_middle = std::remainder(theta_of_ray(axes, ray) - middle, 2 * std::numbers::pi);
         EXPECT_LE(std::abs(from_middle), half + 1e-9);
         farthest = std::max(farthest, std::abs(from_middle));
@@ -277,10 +274,7 @@ TEST(PixelExact, RowsAreNowhereMoreThanAPixelApart) {
       for (int sample = 0; sample < 2000; ++sample) {
         // The rays of two neighbouring pixels, in either direction.
         const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
-        const auto ray = [&](double dx, double dy) {
-          return glm::normalize(camera.forward + (x + dx) * camera.half_width * camera.right +
-                                (y + dy) * camera.half_height * camera.up);
-        };
+        const auto ray = [&](double dx, double dy) { return tests::view_ray(camera, x + dx, y + dy); };
         const glm::dvec3 a = ray(0, 0);
         // One row to the next on the sphere, over what a pixel spans there at least.
         const double pixel =

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "support/view_rays.h"
 #include "unit/reference/fixtures.h"
 
 /// First hits, and whether the light sees them.
@@ -19,9 +20,7 @@ scene::View looking_down(glm::dvec3 light) {
 
 glm::dvec3 pixel_direction(const scene::View& view, int x, int y) {
   const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
-  return glm::normalize(camera.forward +
-                        (2 * (x + 0.5) / view.size.x - 1) * camera.half_width * camera.right +
-                        (1 - 2 * (y + 0.5) / view.size.y) * camera.half_height * camera.up);
+  return airlight::tests::pixel_ray(camera, view.size, x, y);
 }
 
 TEST(Surfaces, NothingIsHitInAnEmptyScene) {
