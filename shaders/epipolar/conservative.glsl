@@ -26,7 +26,7 @@
 #include "epipolar/grid.glsl"
 
 // No slab is wider than this, so that tan and 1/cos of its half stay small: a wide cell of θ is cut into several.
-CONST float k_widest_slab = 0.2f;  // [rad]
+CONST Angle k_widest_slab = Angle(0.2f);
 
 // How many slabs a cell of θ has; at most 158 (θ steps are at most 2π, g at most 0.8, epipolar/space.cpp).
 FUNCTION uint slabs_per_plane(IN(EpipolarBlock) space) {
@@ -37,12 +37,12 @@ FUNCTION uint slabs_per_plane(IN(EpipolarBlock) space) {
 CONST float k_position_slack = 5e-6f;
 // Of the directions of light rays [rad]: 34 e.
 CONST float k_ray_slack = 5e-6f;
-// Of the borders of slabs [rad], over the density of planes: 16 e over the density and 20 e, which is at most twice as dense.
-CONST float k_border_slack = 7e-6f;
-// Of an angle θ on the way to its plane [rad], over 1 − g: 55 e and 28 e over 1 − g.
-CONST float k_theta_slack = 1e-5f;
+// Of the borders of slabs, over the density of planes: 16 e over the density and 20 e, which is at most twice as dense.
+CONST Angle k_border_slack = Angle(7e-6f);
+// Of an angle θ on the way to its plane, over 1 − g: 55 e and 28 e over 1 − g.
+CONST Angle k_theta_slack = Angle(1e-5f);
 // Of orders: 6 e, 14 e and, for α, 11 e.
-CONST float k_order_slack = 4e-6f;
+CONST Order k_order_slack = Order(4e-6f);
 // Of the number of cells in φ: 18 e.
 CONST float k_cell_slack = 3e-6f;
 
@@ -60,8 +60,8 @@ FUNCTION float distance_to_segment(IN(vec2) a, IN(vec2) b) {
 }
 
 // An angle in (−2π, 2π) as one in [−π, π].
-FUNCTION float wrapped(float angle) {
-  return angle > k_pi ? angle - 2.0f * k_pi : angle < -k_pi ? angle + 2.0f * k_pi : angle;
+FUNCTION Angle wrapped(Angle angle) {
+  return angle > k_half_turn ? angle - 2.0f * k_half_turn : angle < -k_half_turn ? angle + 2.0f * k_half_turn : angle;
 }
 
 // The planes whose cells a triangle may touch: two runs, the second one for what wraps over the end of a full turn.
@@ -72,9 +72,9 @@ struct PlaneSpan {
   uint wrapped_count;
 };
 
-FUNCTION uint clamped_plane(IN(EpipolarBlock) space, float from_middle, uint theta_count) {
-  float plane = floor(plane_of_theta(space, clamp(from_middle, -k_pi, k_pi)));
-  return uint(clamp(plane, 0.0f, float(theta_count) - 1.0f));
+FUNCTION uint clamped_plane(IN(EpipolarBlock) space, Angle from_middle, uint theta_count) {
+  Cell plane = floor(plane_of_theta(space, clamp(from_middle, -k_half_turn, k_half_turn)));
+  return uint(clamp(plane, Cell(0.0f), Cell(float(theta_count) - 1.0f)));
 }
 
 // `a`, `b`, `c`: the corners' coordinates along u and f.
@@ -93,13 +93,13 @@ FUNCTION PlaneSpan planes_of_triangle(IN(EpipolarBlock) space, IN(vec2) a, IN(ve
   if (holds_axis || nearest <= 2.0f * slack) return span;
 
   // Seen along the axis, a triangle beside the origin spans less than π.
-  float theta_a = angle_of(a.y, a.x);
-  float to_b = wrapped(angle_of(b.y, b.x) - theta_a);
-  float to_c = wrapped(angle_of(c.y, c.x) - theta_a);
-  float margin = 2.0f * slack / nearest + k_theta_slack / (1.0f - space.theta_growth);
-  float lower = wrapped(theta_a - space.theta_middle) + min(0.0f, min(to_b, to_c)) - margin;
-  float upper = wrapped(theta_a - space.theta_middle) + max(0.0f, max(to_b, to_c)) + margin;
-  float turn = lower < -k_pi ? 2.0f * k_pi : 0.0f;
+  Angle theta_a = angle_of(a.y, a.x);
+  Angle to_b = wrapped(angle_of(b.y, b.x) - theta_a);
+  Angle to_c = wrapped(angle_of(c.y, c.x) - theta_a);
+  Angle margin = Angle(2.0f * slack / nearest) + k_theta_slack / (1.0f - space.theta_growth);
+  Angle lower = wrapped(theta_a - space.theta_middle) + min(Angle(0.0f), min(to_b, to_c)) - margin;
+  Angle upper = wrapped(theta_a - space.theta_middle) + max(Angle(0.0f), max(to_b, to_c)) + margin;
+  Angle turn = lower < -k_half_turn ? 2.0f * k_half_turn : Angle(0.0f);
   lower += turn;
   upper += turn;
   span.count = 0u;
@@ -107,9 +107,9 @@ FUNCTION PlaneSpan planes_of_triangle(IN(EpipolarBlock) space, IN(vec2) a, IN(ve
     span.first = clamped_plane(space, lower, theta_count);
     span.count = clamped_plane(space, upper, theta_count) - span.first + 1u;
   }
-  if (upper - 2.0f * k_pi >= -space.theta_half) {
-    span.wrapped_first = clamped_plane(space, lower - 2.0f * k_pi, theta_count);
-    span.wrapped_count = clamped_plane(space, upper - 2.0f * k_pi, theta_count) - span.wrapped_first + 1u;
+  if (upper - 2.0f * k_half_turn >= -space.theta_half) {
+    span.wrapped_first = clamped_plane(space, lower - 2.0f * k_half_turn, theta_count);
+    span.wrapped_count = clamped_plane(space, upper - 2.0f * k_half_turn, theta_count) - span.wrapped_first + 1u;
   }
   return span;
 }
@@ -206,8 +206,8 @@ FUNCTION vec2 phi_order_bounds(IN(SlabOutline) outline, float slack) {
         float w = end == 0 ? s.y : s.w;
         float inner = max(x - slack, 0.0f);
         float outer = x + slack;
-        bounds.x = min(bounds.x, min(angle_order(inner, w + slack), angle_order(outer, w + slack)));
-        bounds.y = max(bounds.y, max(angle_order(inner, w - slack), angle_order(outer, w - slack)));
+        bounds.x = min(bounds.x, float(min(angle_order(inner, w + slack), angle_order(outer, w + slack))));
+        bounds.y = max(bounds.y, float(max(angle_order(inner, w - slack), angle_order(outer, w - slack))));
       }
     }
   }
@@ -216,9 +216,9 @@ FUNCTION vec2 phi_order_bounds(IN(SlabOutline) outline, float slack) {
 
 // The least angle_order of α over the part of an outline between two light rays, given by cosine and sine of their φ; 3 where
 // nothing is there.
-FUNCTION float least_alpha_order(IN(SlabOutline) outline, IN(vec2) from_ray, IN(vec2) to_ray, float light_distance,
+FUNCTION Order least_alpha_order(IN(SlabOutline) outline, IN(vec2) from_ray, IN(vec2) to_ray, float light_distance,
                                  float slack) {
-  float least = 3.0f;
+  Order least = Order(3.0f);
   for (int i = 0; i < 5; ++i) {
     vec4 s = outline.segment[i];
     // The light lies at (0, 0): no farther from it than |x| + |w|.
@@ -272,12 +272,12 @@ FUNCTION vec3 seen_along_slab(IN(EpipolarBlock) space, IN(vec3) corner, float co
 }
 
 // The slab between two angles θ from the middle of the range.
-FUNCTION SlabPart part_in_slab(IN(EpipolarBlock) space, IN(PhiCells) cells, IN(VoxelTriangle) triangle, float from,
-                               float to) {
-  float middle = 0.5f * (from + to);
+FUNCTION SlabPart part_in_slab(IN(EpipolarBlock) space, IN(PhiCells) cells, IN(VoxelTriangle) triangle, Angle from,
+                               Angle to) {
+  Angle middle = 0.5f * (from + to);
   float cos_theta = cosine(space.theta_middle + middle);
   float sin_theta = sine(space.theta_middle + middle);
-  float half_angle = 0.5f * (to - from) + k_border_slack / (1.0f + space.theta_growth * cosine(middle));
+  Angle half_angle = 0.5f * (to - from) + k_border_slack / (1.0f + space.theta_growth * cosine(middle));
   float tangent = sine(half_angle) / cosine(half_angle);
   SlabPart part;
   part.outline = outline_in_slab(seen_along_slab(space, triangle.a, cos_theta, sin_theta),
@@ -285,29 +285,29 @@ FUNCTION SlabPart part_in_slab(IN(EpipolarBlock) space, IN(PhiCells) cells, IN(V
                                  seen_along_slab(space, triangle.c, cos_theta, sin_theta), tangent, triangle.slack);
   part.slack = triangle.slack + curvature_slack(part.outline, tangent);
   vec2 orders = phi_order_bounds(part.outline, part.slack);
-  float from_phi = angle_from_order(clamp(orders.x - k_order_slack, 0.0f, 2.0f));
-  float to_phi = angle_from_order(clamp(orders.y + k_order_slack, 0.0f, 2.0f));
-  float first = floor(cell_of_phi(cells, from_phi) - k_cell_slack * cells.count);
-  float last = floor(cell_of_phi(cells, to_phi) + k_cell_slack * cells.count);
-  part.first_ray = uint(clamp(first, 0.0f, cells.count));
-  part.end_ray = orders.x > orders.y ? 0u : uint(clamp(last + 1.0f, 0.0f, cells.count));
+  Angle from_phi = angle_from_order(clamp(Order(orders.x) - k_order_slack, Order(0.0f), Order(2.0f)));
+  Angle to_phi = angle_from_order(clamp(Order(orders.y) + k_order_slack, Order(0.0f), Order(2.0f)));
+  Cell first = floor(cell_of_phi(cells, from_phi) - k_cell_slack * cells.count);
+  Cell last = floor(cell_of_phi(cells, to_phi) + k_cell_slack * cells.count);
+  part.first_ray = uint(clamp(first, Cell(0.0f), cells.count));
+  part.end_ray = orders.x > orders.y ? 0u : uint(clamp(last + Cell(1.0f), Cell(0.0f), cells.count));
   return part;
 }
 
 // Cosine and sine of φ at a boundary of cells.
 FUNCTION vec2 boundary_ray(IN(PhiCells) cells, uint k) {
-  float phi = phi_of_cell(cells, float(k));
+  Angle phi = phi_of_cell(cells, Cell(float(k)));
   return vec2(cosine(phi), sine(phi));
 }
 
 // The cell in α nearest the light that the part touches between two light rays; N_α if none.
 FUNCTION uint first_touched_cell(IN(EpipolarBlock) space, IN(SlabPart) part, IN(vec2) from_ray, IN(vec2) to_ray,
                                  uint alpha_count) {
-  float order = least_alpha_order(part.outline, from_ray, to_ray, space.distance, part.slack);
-  float alpha = angle_from_order(clamp(order - k_order_slack, 0.0f, 2.0f));
+  Order order = least_alpha_order(part.outline, from_ray, to_ray, space.distance, part.slack);
+  Angle alpha = angle_from_order(clamp(order - k_order_slack, Order(0.0f), Order(2.0f)));
   float i = floor((alpha - space.alpha_min) / space.alpha_step);
   // An order may be rounded to a little more than 2; 3 says that nothing is there.
-  return order > 2.5f ? alpha_count : uint(clamp(i, 0.0f, float(alpha_count)));
+  return order > Order(2.5f) ? alpha_count : uint(clamp(i, 0.0f, float(alpha_count)));
 }
 
 #endif

@@ -19,7 +19,7 @@ struct Debugged {
   std::vector<std::uint32_t> bits;  ///< after the scan
   std::vector<glm::vec4> surfaces;
   shaders::EpipolarBlock space;
-  float phi_max;
+  shaders::Angle phi_max;
 };
 
 Debugged debug(const char* scene, glm::ivec2 size, const VolumeOptions& settings) {
@@ -32,7 +32,7 @@ Debugged debug(const char* scene, glm::ivec2 size, const VolumeOptions& settings
     volume.fill(inputs);
     debugged.bits = volume.grid().bits().read<std::uint32_t>();
     debugged.surfaces = inputs.surfaces.read<glm::vec4>();
-    debugged.phi_max = shaders::angle_from_order(volume.grid().phi_range().read<float>().at(0));
+    debugged.phi_max = shaders::angle_from_order(volume.grid().phi_range().read<shaders::Order>().at(0));
     const std::vector<frame::DebugImage> images = debug_images(volume, inputs);
     ASSERT_EQ(images.size(), 3u);
     debugged.before = images[0];

@@ -186,8 +186,8 @@ class BitsOf {
       ShadowVolume volume(inputs.context.limits(), {.resolution = n, .ranges = Ranges::alpha_phi});
       tests::build(volume, inputs, k_growth);
       bits_ = volume.grid().bits().read<std::uint32_t>();
-      phi_max_ =
-          static_cast<double>(shaders::angle_from_order(volume.grid().phi_range().read<float>().at(0)));
+      phi_max_ = static_cast<double>(
+          shaders::angle_from_order(volume.grid().phi_range().read<shaders::Order>().at(0)));
     });
     alpha_ = alpha_range(scene::camera_frame(view.camera, view.size), axes_.axis);
   }

@@ -75,7 +75,8 @@ class Grids {
     ShadowVolume volume(inputs.context.limits(), {.resolution = k_resolution, .populate = populate});
     tests::build(volume, inputs, k_growth);
     space_ = volume.grid().block().read<shaders::EpipolarBlock>().at(0);
-    phi_max_ = static_cast<double>(shaders::angle_from_order(volume.grid().phi_range().read<float>().at(0)));
+    phi_max_ = static_cast<double>(
+        shaders::angle_from_order(volume.grid().phi_range().read<shaders::Order>().at(0)));
     return volume.grid().bits().read<std::uint32_t>();
   }
 

@@ -45,7 +45,8 @@ Bits bits_of(const scene::Geometry& geometry, const scene::View& view) {
       std::vector<float> range = volume.grid().phi_range().read<float>();
       range.at(1) = k_growth;
       volume.grid().phi_range().write(range.data(), volume.grid().phi_range().bytes());
-      bits.cells = {shaders::angle_from_order(range[0]), k_growth, static_cast<float>(k_resolution.phi)};
+      bits.cells = {shaders::angle_from_order(shaders::Order(range[0])), k_growth,
+                    shaders::Cell(static_cast<float>(k_resolution.phi))};
     };
     ShadowVolume solid(inputs.context.limits(),
                        {.resolution = k_resolution, .populate = Populate::screen_space});
@@ -80,7 +81,8 @@ glm::dvec3 centre(const Bits& bits, const scene::View& view, int i, int j, int k
   const double alpha =
       static_cast<double>(bits.space.alpha_min) + (i + 0.5) * static_cast<double>(bits.space.alpha_step);
   const auto theta = static_cast<double>(shaders::theta_centre(bits.space, static_cast<std::uint32_t>(j)));
-  const auto phi = static_cast<double>(shaders::phi_of_cell(bits.cells, static_cast<float>(k) + 0.5f));
+  const auto phi =
+      static_cast<double>(shaders::phi_of_cell(bits.cells, shaders::Cell(static_cast<float>(k) + 0.5f)));
   const double t = alpha + phi < std::numbers::pi - 1e-6 ? D * std::sin(phi) / std::sin(alpha + phi) : 1e9;
   return view.camera.eye + t * (std::sin(alpha) * (std::cos(theta) * axes.u + std::sin(theta) * axes.f) +
                                 std::cos(alpha) * axes.axis);
@@ -155,7 +157,7 @@ TEST(ScreenSpace, OccluderNearerTheAxisThanTheImageShadows) {
   const Bits bits = bits_of(geometry, view);
   EXPECT_TRUE(bit(bits.solid, 0, 150, 0) ||
               std::any_of(bits.solid.begin(), bits.solid.end(), [](std::uint32_t w) { return w != 0; }));
-  EXPECT_EQ(bits.space.alpha_min, 0.0f);
+  EXPECT_EQ(bits.space.alpha_min, shaders::Angle(0.0f));
 }
 
 class ScreenSpaceModel : public testing::TestWithParam<const char*> {};
