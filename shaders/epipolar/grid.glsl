@@ -1,7 +1,9 @@
 // The voxel grid: which cell holds what, and where its bit is stored.
 //
-// N_α × N_θ × N_φ bits. Cells in α are equal and cover the frame's range; cells in θ cover the frame's range, or a turn, denser in its middle; cells in φ cover [0, φ_max] and grow along it. A cell is represented by its centre. One 128-bit texel (uvec4) holds 128 consecutive φ at one (α, θ),
-// lowest bit first; the N_φ / 128 texels of a view ray are neighbours in memory, then the rays of one plane in order of α.
+// N_α × N_θ × N_φ bits. Cells in α are equal and cover the frame's range; cells in θ cover the frame's range, or a turn,
+// denser in its middle; cells in φ cover [0, φ_max] and grow along it. A cell is represented by its centre. One 128-bit texel
+// (uvec4) holds 128 consecutive φ at one (α, θ), lowest bit first; the N_φ / 128 texels of a view ray are neighbours in
+// memory, then the rays of one plane in order of α.
 #ifndef AIRLIGHT_GRID_GLSL
 #define AIRLIGHT_GRID_GLSL
 #include "epipolar/space.glsl"

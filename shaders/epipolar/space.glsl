@@ -7,7 +7,7 @@
 //   φ ∈ [0, π − α)  angle at the light between −l and the light ray; grows along the view ray from 0 at the eye
 // Deviation: every angle is the arc tangent of cross and dot products. The paper's acos loses half the digits near 0 and π, where
 // the epipole is, and needs its argument clamped (its section 4.2).
-// All vectors are relative to the eye.
+// Points are relative to the eye, in the directions of the world's axes; light rays start at the light.
 #ifndef AIRLIGHT_SPACE_GLSL
 #define AIRLIGHT_SPACE_GLSL
 #include "arithmetic.glsl"
@@ -32,7 +32,7 @@ struct EyeAngle {
   float cosine;
 };
 
-// α of a unit view ray, kept away from the two singular directions by `least_sine`.
+// α of a unit view ray (from the eye), kept away from the two singular directions by `least_sine`.
 FUNCTION EyeAngle eye_angle(IN(EpipolarBlock) space, IN(vec3) ray, float least_sine) {
   EyeAngle angle;
   angle.sine = max(length(cross(space.axis, ray)), least_sine);
@@ -45,7 +45,7 @@ FUNCTION Angle alpha_of(IN(EyeAngle) angle) { return angle_of(angle.sine, angle.
 // π − α, with all digits where α is near π.
 FUNCTION Angle alpha_complement(IN(EyeAngle) angle) { return angle_of(angle.sine, -angle.cosine); }
 
-// θ of a vector; 0 on the axis, where it has none.
+// θ of a vector from any point of the axis; 0 on the axis, where it has none.
 FUNCTION Angle theta_of(IN(EpipolarBlock) space, IN(vec3) vector) {
   float y = dot(vector, space.f);
   float x = dot(vector, space.u);
