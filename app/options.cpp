@@ -73,7 +73,7 @@ scene::Scene load_scene(const Options& options) {
 }
 
 /// The choices of a command line, all of which are read before a scene is.
-class OptionChoices : public scene::Choices {
+class OptionChoices final : public scene::Choices {
  public:
   explicit OptionChoices(const Options& options) {
     for (const scene::FieldInfo* field : scene::every_field())

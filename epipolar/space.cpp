@@ -173,11 +173,11 @@ shaders::EpipolarBlock epipolar_block(const scene::View& view, const scene::Ligh
   block.distance = static_cast<float>(glm::distance(light.position, view.camera.eye));
   block.u = glm::vec3(axes.u);
   block.f = glm::vec3(axes.f);
-  block.alpha_min = static_cast<float>(alpha.lower);
-  block.alpha_step = static_cast<float>((alpha.upper - alpha.lower) / resolution.alpha);
-  block.theta_middle = static_cast<float>(theta.middle);
-  block.theta_half = static_cast<float>(theta.half);
-  block.theta_step = static_cast<float>(2.0 * theta.half / resolution.theta);
+  block.alpha_min = shaders::Angle(static_cast<float>(alpha.lower));
+  block.alpha_step = shaders::Angle(static_cast<float>((alpha.upper - alpha.lower) / resolution.alpha));
+  block.theta_middle = shaders::Angle(static_cast<float>(theta.middle));
+  block.theta_half = shaders::Angle(static_cast<float>(theta.half));
+  block.theta_step = shaders::Angle(static_cast<float>(2.0 * theta.half / resolution.theta));
   block.theta_growth = static_cast<float>(theta.growth);
   return block;
 }

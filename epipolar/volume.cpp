@@ -153,7 +153,7 @@ shaders::EpipolarBlock ShadowVolume::find_ranges(const frame::FrameInputs& input
   if (populate_screen_space_) {
     // It finds occluders on the grid's own view rays, those nearer the axis than the image included.
     const float count = static_cast<float>(options_.resolution.alpha);
-    block.alpha_step += std::exchange(block.alpha_min, 0.0f) / count;
+    block.alpha_step += std::exchange(block.alpha_min, shaders::Angle(0.0f)) / count;
   }
   inputs.timer.time("ranges", [&] {
     grid_.block().write(&block, sizeof block);

@@ -84,7 +84,7 @@ struct NoOptions {};
 /// @param make std::unique_ptr<Interface>(const gpu::Context&, const Options&)
 template <class Interface, class Options, class Make>
 Method<Interface> describe(std::string_view name, std::string_view description, const Traits& traits,
-                           std::vector<Option> options, Make make) {
+                           std::vector<Option> options, const Make& make) {
   Method<Interface> method{
       .name = name,
       .description = description,

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <numbers>
 
 #include "epipolar/debug_images.h"
 #include "media/medium.h"
@@ -25,9 +24,9 @@ constexpr std::uint32_t k_table_rows = 256;
 std::uint32_t direct_cells(const shaders::EpipolarBlock& space, const epipolar::Resolution& resolution) {
   constexpr std::uint32_t k_cells = 4;
   constexpr float k_widest = 1.8f;  // of φ_max / N_φ, at the largest growth (shaders/media/phi_growth.comp)
-  const float alpha_max = space.alpha_min + space.alpha_step * static_cast<float>(resolution.alpha);
-  const float reach = k_cells * k_widest * std::numbers::pi_v<float> / static_cast<float>(resolution.phi);
-  return std::numbers::pi_v<float> - alpha_max < reach ? k_cells : 0;
+  const shaders::Angle alpha_max = space.alpha_min + space.alpha_step * static_cast<float>(resolution.alpha);
+  const shaders::Angle reach = k_cells * k_widest * shaders::k_half_turn / static_cast<float>(resolution.phi);
+  return shaders::k_half_turn - alpha_max < reach ? k_cells : 0;
 }
 
 }  // namespace

@@ -26,7 +26,7 @@
 #include "epipolar/grid.glsl"
 
 // No slab is wider than this, so that tan and 1/cos of its half stay small: a wide cell of θ is cut into several.
-CONST float k_widest_slab = 0.2f;  // [rad]
+CONST Angle k_widest_slab = Angle(0.2f);
 
 // How many slabs a cell of θ has; at most 158 (θ steps are at most 2π, g at most 0.8, epipolar/space.cpp).
 FUNCTION uint slabs_per_plane(IN(EpipolarBlock) space) {
@@ -37,12 +37,12 @@ FUNCTION uint slabs_per_plane(IN(EpipolarBlock) space) {
 CONST float k_position_slack = 5e-6f;
 // Of the directions of light rays [rad]: 34 e.
 CONST float k_ray_slack = 5e-6f;
-// Of the borders of slabs [rad], over the density of planes: 16 e over the density and 20 e, which is at most twice as dense.
-CONST float k_border_slack = 7e-6f;
-// Of an angle θ on the way to its plane [rad], over 1 − g: 55 e and 28 e over 1 − g.
-CONST float k_theta_slack = 1e-5f;
+// Of the borders of slabs, over the density of planes: 16 e over the density and 20 e, which is at most twice as dense.
+CONST Angle k_border_slack = Angle(7e-6f);
+// Of an angle θ on the way to its plane, over 1 − g: 55 e and 28 e over 1 − g.
+CONST Angle k_theta_slack = Angle(1e-5f);
 // Of orders: 6 e, 14 e and, for α, 11 e.
-CONST float k_order_slack = 4e-6f;
+CONST Order k_order_slack = Order(4e-6f);
 // Of the number of cells in φ: 18 e.
 CONST float k_cell_slack = 3e-6f;
 
@@ -60,8 +60,8 @@ FUNCTION float distance_to_segment(IN(vec2) a, IN(vec2) b) {
 }
 
 // An angle in (−2π, 2π) as one in [−π, π].
-FUNCTION float wrapped(float angle) {
-  return angle > k_pi ? angle - 2.0f * k_pi : angle < -k_pi ? angle + 2.0f * k_pi : angle;
+FUNCTION Angle wrapped(Angle angle) {
+  return angle > k_half_turn ? angle - 2.0f * k_half_turn : angle < -k_half_turn ? angle + 2.0f * k_half_turn : angle;
 }
 
 // The planes whose cells a triangle may touch: two runs, the second one for what wraps over the end of a full turn.
@@ -72,14 +72,15 @@ struct PlaneSpan {
   uint wrapped_count;
 };
 
-FUNCTION uint clamped_plane(IN(EpipolarBlock) space, float from_middle, uint theta_count) {
-  float plane = floor(plane_of_theta(space, clamp(from_middle, -k_pi, k_pi)));
-  return uint(clamp(plane, 0.0f, float(theta_count) - 1.0f));
+FUNCTION uint clamped_plane(IN(EpipolarBlock) space, Angle from_middle, uint theta_count) {
+  Cell plane = floor(plane_of_theta(space, clamp(from_middle, -k_half_turn, k_half_turn)));
+  return uint(clamp(plane, Cell(0.0f), Cell(float(theta_count) - 1.0f)));
 }
 
-// `a`, `b`, `c`: the corners' coordinates along u and f.
+// `a`, `b`, `c`: the corners' coordinates along u and f, from the axis. `slack` [m].
 FUNCTION PlaneSpan planes_of_triangle(IN(EpipolarBlock) space, IN(vec2) a, IN(vec2) b, IN(vec2) c, float slack,
                                       uint theta_count) {
+  // A triangle that holds the axis, or comes within twice the slack of it, is in every plane.
   float nearest = min(distance_to_segment(a, b), min(distance_to_segment(b, c), distance_to_segment(c, a)));
   float ab = a.x * b.y - a.y * b.x;
   float bc = b.x * c.y - b.y * c.x;
@@ -92,24 +93,26 @@ FUNCTION PlaneSpan planes_of_triangle(IN(EpipolarBlock) space, IN(vec2) a, IN(ve
   span.wrapped_count = 0u;
   if (holds_axis || nearest <= 2.0f * slack) return span;
 
-  // Seen along the axis, a triangle beside the origin spans less than π.
-  float theta_a = angle_of(a.y, a.x);
-  float to_b = wrapped(angle_of(b.y, b.x) - theta_a);
-  float to_c = wrapped(angle_of(c.y, c.x) - theta_a);
-  float margin = 2.0f * slack / nearest + k_theta_slack / (1.0f - space.theta_growth);
-  float lower = wrapped(theta_a - space.theta_middle) + min(0.0f, min(to_b, to_c)) - margin;
-  float upper = wrapped(theta_a - space.theta_middle) + max(0.0f, max(to_b, to_c)) + margin;
-  float turn = lower < -k_pi ? 2.0f * k_pi : 0.0f;
+  // The range of θ, from the middle of the grid's. Seen along the axis, a triangle beside the origin spans less than π.
+  Angle theta_a = angle_of(a.y, a.x);
+  Angle to_b = wrapped(angle_of(b.y, b.x) - theta_a);
+  Angle to_c = wrapped(angle_of(c.y, c.x) - theta_a);
+  Angle margin = Angle(2.0f * slack / nearest) + k_theta_slack / (1.0f - space.theta_growth);
+  Angle lower = wrapped(theta_a - space.theta_middle) + min(Angle(0.0f), min(to_b, to_c)) - margin;
+  Angle upper = wrapped(theta_a - space.theta_middle) + max(Angle(0.0f), max(to_b, to_c)) + margin;
+  // Let it start in [−π, π]; it may end in the next turn.
+  Angle turn = lower < -k_half_turn ? 2.0f * k_half_turn : Angle(0.0f);
   lower += turn;
   upper += turn;
+  // The planes of this turn, and those of the next.
   span.count = 0u;
   if (lower <= space.theta_half && upper >= -space.theta_half) {
     span.first = clamped_plane(space, lower, theta_count);
     span.count = clamped_plane(space, upper, theta_count) - span.first + 1u;
   }
-  if (upper - 2.0f * k_pi >= -space.theta_half) {
-    span.wrapped_first = clamped_plane(space, lower - 2.0f * k_pi, theta_count);
-    span.wrapped_count = clamped_plane(space, upper - 2.0f * k_pi, theta_count) - span.wrapped_first + 1u;
+  if (upper - 2.0f * k_half_turn >= -space.theta_half) {
+    span.wrapped_first = clamped_plane(space, lower - 2.0f * k_half_turn, theta_count);
+    span.wrapped_count = clamped_plane(space, upper - 2.0f * k_half_turn, theta_count) - span.wrapped_first + 1u;
   }
   return span;
 }
@@ -137,6 +140,7 @@ FUNCTION vec2 clip(IN(vec2) range, float f_0, float f_1) {
   return vec2(max(range.x, lower), min(range.y, upper));
 }
 
+// The part of the edge (a, b), given as in outline_in_slab, as a segment of the outline.
 FUNCTION vec4 part_of(IN(vec3) a, IN(vec3) b, IN(vec2) range) {
   if (range.x > range.y) return vec4(-1.0f);
   vec3 from = a + range.x * (b - a);
@@ -144,8 +148,8 @@ FUNCTION vec4 part_of(IN(vec3) a, IN(vec3) b, IN(vec2) range) {
   return vec4(max(from.x, 0.0f), from.y, max(to.x, 0.0f), to.y);
 }
 
-// `a`, `b`, `c`: the corners as (x, w, y), with y at right angles to the slab's middle plane. `tangent`: of half the
-// slab's angle.
+// `a`, `b`, `c`: the corners as (x, w, y) from the light, with y at right angles to the slab's middle plane. `tangent`: of half
+// the slab's angle.
 FUNCTION SlabOutline outline_in_slab(IN(vec3) a, IN(vec3) b, IN(vec3) c, float tangent, float slack) {
   SlabOutline outline;
   vec3 corner[4];
@@ -165,6 +169,7 @@ FUNCTION SlabOutline outline_in_slab(IN(vec3) a, IN(vec3) b, IN(vec3) c, float t
   // Where the slab's two sides cut the triangle.
   for (int side = 0; side < 2; ++side) {
     float sign = side == 0 ? 1.0f : -1.0f;
+    // The chord along this side: from the first edge that crosses it to the last.
     vec3 from = vec3(-1.0f);
     vec3 to = vec3(-1.0f);
     bool is_cut = false;
@@ -180,6 +185,7 @@ FUNCTION SlabOutline outline_in_slab(IN(vec3) a, IN(vec3) b, IN(vec3) c, float t
         is_cut = true;
       }
     }
+    // What of it lies before the other side and outwards from the axis.
     vec2 range = is_cut ? vec2(0.0f, 1.0f) : vec2(1.0f, 0.0f);
     range = clip(range, from.x * tangent + sign * from.z + slack, to.x * tangent + sign * to.z + slack);
     range = clip(range, from.x + slack, to.x + slack);
@@ -195,7 +201,8 @@ FUNCTION float curvature_slack(IN(SlabOutline) outline, float tangent) {
   return 0.5f * farthest * tangent * tangent;
 }
 
-// Bounds of angle_order of φ over an outline; the first is larger than the second where nothing is there.
+// The least and the largest angle_order of φ over an outline: φ is extreme where its segments end. The first is larger than the
+// second where nothing is there.
 FUNCTION vec2 phi_order_bounds(IN(SlabOutline) outline, float slack) {
   vec2 bounds = vec2(3.0f, -1.0f);
   for (int i = 0; i < 5; ++i) {
@@ -206,8 +213,8 @@ FUNCTION vec2 phi_order_bounds(IN(SlabOutline) outline, float slack) {
         float w = end == 0 ? s.y : s.w;
         float inner = max(x - slack, 0.0f);
         float outer = x + slack;
-        bounds.x = min(bounds.x, min(angle_order(inner, w + slack), angle_order(outer, w + slack)));
-        bounds.y = max(bounds.y, max(angle_order(inner, w - slack), angle_order(outer, w - slack)));
+        bounds.x = min(bounds.x, float(min(angle_order(inner, w + slack), angle_order(outer, w + slack))));
+        bounds.y = max(bounds.y, float(max(angle_order(inner, w - slack), angle_order(outer, w - slack))));
       }
     }
   }
@@ -216,17 +223,18 @@ FUNCTION vec2 phi_order_bounds(IN(SlabOutline) outline, float slack) {
 
 // The least angle_order of α over the part of an outline between two light rays, given by cosine and sine of their φ; 3 where
 // nothing is there.
-FUNCTION float least_alpha_order(IN(SlabOutline) outline, IN(vec2) from_ray, IN(vec2) to_ray, float light_distance,
+FUNCTION Order least_alpha_order(IN(SlabOutline) outline, IN(vec2) from_ray, IN(vec2) to_ray, float light_distance,
                                  float slack) {
-  float least = 3.0f;
+  Order least = Order(3.0f);
   for (int i = 0; i < 5; ++i) {
     vec4 s = outline.segment[i];
-    // The light lies at (0, 0): no farther from it than |x| + |w|.
+    // The part of the segment between the two rays. The light lies at (0, 0): no farther from it than |x| + |w|.
     float from_slack = slack + k_ray_slack * (s.x + abs(s.y));
     float to_slack = slack + k_ray_slack * (s.z + abs(s.w));
     vec2 range = clip(vec2(0.0f, 1.0f), s.x * from_ray.x - s.y * from_ray.y + from_slack,
                       s.z * from_ray.x - s.w * from_ray.y + to_slack);
     range = clip(range, s.y * to_ray.y - s.x * to_ray.x + from_slack, s.w * to_ray.y - s.z * to_ray.x + to_slack);
+    // α is extreme at its ends; z is along the axis from the eye.
     if (s.x >= 0.0f && range.x <= range.y) {
       for (int end = 0; end < 2; ++end) {
         float t = end == 0 ? range.x : range.y;
@@ -267,47 +275,52 @@ struct SlabPart {
   uint end_ray;    // … to before here
 };
 
+// A corner, relative to the eye, as outline_in_slab takes it: outwards in the slab's middle plane, from the light towards the
+// eye, and at right angles to that plane.
 FUNCTION vec3 seen_along_slab(IN(EpipolarBlock) space, IN(vec3) corner, float cosine, float sine) {
   return vec3(corner.x * cosine + corner.y * sine, space.distance - corner.z, corner.y * cosine - corner.x * sine);
 }
 
 // The slab between two angles θ from the middle of the range.
-FUNCTION SlabPart part_in_slab(IN(EpipolarBlock) space, IN(PhiCells) cells, IN(VoxelTriangle) triangle, float from,
-                               float to) {
-  float middle = 0.5f * (from + to);
+FUNCTION SlabPart part_in_slab(IN(EpipolarBlock) space, IN(PhiCells) cells, IN(VoxelTriangle) triangle, Angle from,
+                               Angle to) {
+  // The slab: its middle plane, and half its angle with the slack of its borders.
+  Angle middle = 0.5f * (from + to);
   float cos_theta = cosine(space.theta_middle + middle);
   float sin_theta = sine(space.theta_middle + middle);
-  float half_angle = 0.5f * (to - from) + k_border_slack / (1.0f + space.theta_growth * cosine(middle));
+  Angle half_angle = 0.5f * (to - from) + k_border_slack / (1.0f + space.theta_growth * cosine(middle));
   float tangent = sine(half_angle) / cosine(half_angle);
+  // What of the triangle is in it.
   SlabPart part;
   part.outline = outline_in_slab(seen_along_slab(space, triangle.a, cos_theta, sin_theta),
                                  seen_along_slab(space, triangle.b, cos_theta, sin_theta),
                                  seen_along_slab(space, triangle.c, cos_theta, sin_theta), tangent, triangle.slack);
   part.slack = triangle.slack + curvature_slack(part.outline, tangent);
+  // The cells of φ that this spans.
   vec2 orders = phi_order_bounds(part.outline, part.slack);
-  float from_phi = angle_from_order(clamp(orders.x - k_order_slack, 0.0f, 2.0f));
-  float to_phi = angle_from_order(clamp(orders.y + k_order_slack, 0.0f, 2.0f));
-  float first = floor(cell_of_phi(cells, from_phi) - k_cell_slack * cells.count);
-  float last = floor(cell_of_phi(cells, to_phi) + k_cell_slack * cells.count);
-  part.first_ray = uint(clamp(first, 0.0f, cells.count));
-  part.end_ray = orders.x > orders.y ? 0u : uint(clamp(last + 1.0f, 0.0f, cells.count));
+  Angle from_phi = angle_from_order(clamp(Order(orders.x) - k_order_slack, Order(0.0f), Order(2.0f)));
+  Angle to_phi = angle_from_order(clamp(Order(orders.y) + k_order_slack, Order(0.0f), Order(2.0f)));
+  Cell first = floor(cell_of_phi(cells, from_phi) - k_cell_slack * cells.count);
+  Cell last = floor(cell_of_phi(cells, to_phi) + k_cell_slack * cells.count);
+  part.first_ray = uint(clamp(first, Cell(0.0f), cells.count));
+  part.end_ray = orders.x > orders.y ? 0u : uint(clamp(last + Cell(1.0f), Cell(0.0f), cells.count));
   return part;
 }
 
 // Cosine and sine of φ at a boundary of cells.
 FUNCTION vec2 boundary_ray(IN(PhiCells) cells, uint k) {
-  float phi = phi_of_cell(cells, float(k));
+  Angle phi = phi_of_cell(cells, Cell(float(k)));
   return vec2(cosine(phi), sine(phi));
 }
 
 // The cell in α nearest the light that the part touches between two light rays; N_α if none.
 FUNCTION uint first_touched_cell(IN(EpipolarBlock) space, IN(SlabPart) part, IN(vec2) from_ray, IN(vec2) to_ray,
                                  uint alpha_count) {
-  float order = least_alpha_order(part.outline, from_ray, to_ray, space.distance, part.slack);
-  float alpha = angle_from_order(clamp(order - k_order_slack, 0.0f, 2.0f));
+  Order order = least_alpha_order(part.outline, from_ray, to_ray, space.distance, part.slack);
+  Angle alpha = angle_from_order(clamp(order - k_order_slack, Order(0.0f), Order(2.0f)));
   float i = floor((alpha - space.alpha_min) / space.alpha_step);
   // An order may be rounded to a little more than 2; 3 says that nothing is there.
-  return order > 2.5f ? alpha_count : uint(clamp(i, 0.0f, float(alpha_count)));
+  return order > Order(2.5f) ? alpha_count : uint(clamp(i, 0.0f, float(alpha_count)));
 }
 
 #endif

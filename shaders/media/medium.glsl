@@ -40,17 +40,17 @@ FUNCTION float phase_function(uint kind, IN(MediumBlock) medium, float cosine) {
 // e^{−σ_t (t + r)} p(α + φ), one channel a component. `complement` is π − α, from which the scattering angle α + φ is
 // right near π too. 0 from α + φ = π on, where the path is infinite. GLSL lets exp(−x) err by 3 + 2x ulp, which is at most 4e-7 of
 // the integrand without fog.
-FUNCTION vec3 airlight_integrand(IN(EpipolarBlock) space, IN(MediumBlock) medium, uint kind, float complement, float phi) {
+FUNCTION vec3 airlight_integrand(IN(EpipolarBlock) space, IN(MediumBlock) medium, uint kind, Angle complement, Angle phi) {
   float path = path_length(space, complement, phi);
   return exp(-min(medium.sigma_t * path, vec3(80.0f))) * phase_function(kind, medium, -cosine(complement - phi));
 }
 
 // ∫ airlight_integrand dφ over a short interval, by the two-point Gauss–Legendre rule.
-FUNCTION vec3 integrate_cell(IN(EpipolarBlock) space, IN(MediumBlock) medium, uint kind, float complement, float from,
-                             float to) {
-  float middle = 0.5f * (from + to);
-  float offset = 0.5f * 0.57735026919f * (to - from);
-  return 0.5f * (to - from) *
+FUNCTION vec3 integrate_cell(IN(EpipolarBlock) space, IN(MediumBlock) medium, uint kind, Angle complement, Angle from,
+                             Angle to) {
+  Angle middle = 0.5f * (from + to);
+  Angle offset = 0.5f * 0.57735026919f * (to - from);
+  return 0.5f * float(to - from) *
          (airlight_integrand(space, medium, kind, complement, middle - offset) +
           airlight_integrand(space, medium, kind, complement, middle + offset));
 }

@@ -10,18 +10,18 @@
 // Row and pixel's ray end at (across, along), in the half-plane from the light, the row's scaled by `facing`: the more the row's
 // ray grazes the plane, the farther away it meets it, and where facing = 0 only its direction is left. No quotient is taken
 // that could be infinite.
-FUNCTION float phi_to_row_end(IN(EpipolarBlock) space, IN(EyeAngle) angle, IN(vec3) direction, IN(vec4) surface,
-                              float d_alpha, float d_theta) {
+FUNCTION Angle phi_to_row_end(IN(EpipolarBlock) space, IN(EyeAngle) angle, IN(vec3) direction, IN(vec4) surface,
+                              Angle d_alpha, Angle d_theta) {
   vec3 normal = vec3(surface.x, surface.y, surface.z);
   float across = surface.w * angle.sine;
   float along = space.distance - surface.w * angle.cosine;
   vec3 outward = (direction - angle.cosine * space.axis) / angle.sine;
-  vec3 row_direction = direction + d_alpha * (angle.cosine * outward - angle.sine * space.axis) +
-                       d_theta * angle.sine * cross(space.axis, outward);
+  vec3 row_direction = direction + float(d_alpha) * (angle.cosine * outward - angle.sine * space.axis) +
+                       float(d_theta) * angle.sine * cross(space.axis, outward);
   float plane = max(-surface.w * dot(normal, direction), 0.0f);  // its distance from the eye
   float facing = max(-dot(normal, row_direction), 0.0f);
-  float row_across = plane * (angle.sine + d_alpha * angle.cosine);
-  float row_along = space.distance * facing - plane * (angle.cosine - d_alpha * angle.sine);
+  float row_across = plane * (angle.sine + float(d_alpha) * angle.cosine);
+  float row_along = space.distance * facing - plane * (angle.cosine - float(d_alpha) * angle.sine);
   return angle_of(row_across * along - row_along * across, row_along * along + row_across * across);
 }
 

@@ -75,7 +75,8 @@ glm::dvec3 centre(const Bits& bits, const scene::View& view, int i, int j, int k
   const double alpha =
       static_cast<double>(bits.space.alpha_min) + (i + 0.5) * static_cast<double>(bits.space.alpha_step);
   const auto theta = static_cast<double>(shaders::theta_centre(bits.space, static_cast<std::uint32_t>(j)));
-  const auto phi = static_cast<double>(shaders::phi_of_cell(bits.cells, static_cast<float>(k) + 0.5f));
+  const auto phi =
+      static_cast<double>(shaders::phi_of_cell(bits.cells, shaders::Cell(static_cast<float>(k) + 0.5f)));
   const double t = alpha + phi < std::numbers::pi - 1e-6 ? D * std::sin(phi) / std::sin(alpha + phi) : 1e9;
   return view.camera.eye + t * (std::sin(alpha) * (std::cos(theta) * axes.u + std::sin(theta) * axes.f) +
                                 std::cos(alpha) * axes.axis);

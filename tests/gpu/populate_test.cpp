@@ -115,7 +115,7 @@ void expect_largest_phi(const scene::Geometry& geometry, const scene::View& view
   look_into_frame(geometry, view, 16, [&](const frame::FrameInputs& inputs) {
     const ShadowVolume volume(inputs.context.limits(), {.resolution = {8, 8, 128}});
     volume.find_ranges(inputs);
-    const float order = volume.grid().phi_range().read<float>().at(0);
+    const auto order = volume.grid().phi_range().read<shaders::Order>().at(0);
     // The order is a single-precision number up to 2.
     EXPECT_NEAR(static_cast<double>(shaders::angle_from_order(order)),
                 largest_phi(view, tests::distances(inputs)), 1e-6)

@@ -49,9 +49,9 @@ inline void set_growth(const epipolar::ShadowVolume& volume, float growth) {
 /// How such a volume cuts φ.
 inline shaders::PhiCells phi_cells(const epipolar::ShadowVolume& volume) {
   const std::vector<float> range = volume.grid().phi_range().read<float>();
-  return {.phi_max = shaders::angle_from_order(range.at(0)),
+  return {.phi_max = shaders::angle_from_order(shaders::Order(range.at(0))),
           .growth = range.at(1),
-          .count = static_cast<float>(volume.grid().resolution().phi)};
+          .count = shaders::Cell(static_cast<float>(volume.grid().resolution().phi))};
 }
 
 /// Builds a shadow volume whose cells in φ grow.

@@ -10,6 +10,9 @@ using uint = std::uint32_t;
 using vec2 = glm::vec<2, Rough>;
 using vec3 = glm::vec<3, Rough>;
 using vec4 = glm::vec<4, Rough>;
+using Angle = shaders::Quantity<Rough, shaders::Radians>;
+using Order = shaders::Quantity<Rough, shaders::OrderOfAngle>;
+using Cell = shaders::Quantity<Rough, shaders::CellsOfAxis>;
 
 inline Rough dot(const vec2& a, const vec2& b) {
   return a.x * b.x + a.y * b.y;

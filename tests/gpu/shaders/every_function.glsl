@@ -55,10 +55,10 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   vec3 l = vec3(inputs.a.x, inputs.a.y, inputs.a.z);
   vec3 ray = vec3(inputs.b.x, inputs.b.y, inputs.b.z);
   float t = inputs.b.w;
-  float alpha = inputs.c.x;
-  float theta = inputs.c.y;
-  float phi = inputs.c.z;
-  float complement = inputs.c.w;
+  Angle alpha = Angle(inputs.c.x);
+  Angle theta = Angle(inputs.c.y);
+  Angle phi = Angle(inputs.c.z);
+  Angle complement = Angle(inputs.c.w);
   vec3 any_vector = vec3(inputs.d.x, inputs.d.y, inputs.d.z);
   float g = inputs.d.w;
 
@@ -68,12 +68,12 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   // Any pair at right angles will do; this one has no branch.
   space.u = normalize(cross(l, vec3(0.1f, 0.7f, -0.3f)));
   space.f = cross(l, space.u);
-  space.alpha_min = 0.3f;
-  space.alpha_step = 0.005f;
-  space.theta_middle = 0.5f;
-  space.theta_half = 3.0f;
+  space.alpha_min = Angle(0.3f);
+  space.alpha_step = Angle(0.005f);
+  space.theta_middle = Angle(0.5f);
+  space.theta_half = Angle(3.0f);
   space.theta_growth = 0.3f;
-  space.theta_step = 6.0f / 333.0f;
+  space.theta_step = Angle(6.0f / 333.0f);
 
   MediumBlock medium;
   medium.sigma_s = vec3(0.1f, 0.2f, 0.3f);
@@ -103,25 +103,25 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   EyeAngle angle = eye_angle(space, ray, 1e-4f);
   put(outputs, at, angle.sine);
   put(outputs, at, angle.cosine);
-  put(outputs, at, alpha_of(angle));
-  put(outputs, at, alpha_complement(angle));
-  put(outputs, at, theta_of(space, ray));
-  put(outputs, at, phi_at(space, angle, t));  // 5
+  put(outputs, at, float(alpha_of(angle)));
+  put(outputs, at, float(alpha_complement(angle)));
+  put(outputs, at, float(theta_of(space, ray)));
+  put(outputs, at, float(phi_at(space, angle, t)));  // 5
   EyeAngle given;
   given.sine = sine(alpha);
   given.cosine = cosine(alpha);
   put(outputs, at, distance_from_eye(space, given, phi));
-  put(outputs, at, alpha_at(space, sine(phi), cosine(phi), t));
+  put(outputs, at, float(alpha_at(space, sine(phi), cosine(phi), t)));
   put(outputs, at, light_ray(space, theta, phi));
   put(outputs, at, view_ray_of(space, alpha, theta));
   put(outputs, at, path_length(space, complement, phi));  // 14
-  put(outputs, at, angle_order(abs(t * ray.x), t * ray.y));
-  put(outputs, at, angle_from_order(0.6f * alpha));
-  put(outputs, at, theta_centre(space, uint(100.0f * alpha)));
+  put(outputs, at, float(angle_order(abs(t * ray.x), t * ray.y)));
+  put(outputs, at, float(angle_from_order(Order(0.6f * float(alpha)))));
+  put(outputs, at, float(theta_centre(space, uint(100.0f * float(alpha)))));
   put(outputs, at, float(theta_cell(space, theta, 333u)));  // 18
   put(outputs, at, float(alpha_cell(space, alpha, 512u)));
   put(outputs, at, float(first_shadowed_cell(space, alpha, 512u)));
-  put(outputs, at, float(grid_word(uint(100.0f * alpha), uint(100.0f * phi), 3u, 512u, 16u)));
+  put(outputs, at, float(grid_word(uint(100.0f * float(alpha)), uint(100.0f * float(phi)), 3u, 512u, 16u)));
   put(outputs, at, phase_function(k_isotropic, medium, ray.x));  // 22
   put(outputs, at, phase_function(k_rayleigh, medium, ray.x));
   put(outputs, at, phase_function(k_henyey_greenstein, medium, ray.x));
@@ -141,7 +141,7 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   vec2 centre = cube_texel_centre(texel, 512.0f);
   put(outputs, at, centre.x);
   put(outputs, at, centre.y);
-  put(outputs, at, view_ray(camera, vec2(100.0f * alpha, 60.0f * phi)));  // 46
+  put(outputs, at, view_ray(camera, vec2(100.0f * float(alpha), 60.0f * float(phi))));  // 46
   put(outputs, at, quarter_pixel(camera));
   PRECISE vec3 world = 100.0f * ray + 0.01f * any_vector;
   put(outputs, at, eye_relative(camera, world));
@@ -149,10 +149,10 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   PhiCells cells;
   cells.phi_max = complement;
   cells.growth = 1.0f + g;
-  cells.count = 512.0f;
-  put(outputs, at, phi_of_cell(cells, 100.0f * alpha));
-  put(outputs, at, cell_of_phi(cells, phi));
-  vec2 place = light_texture_place(theta, 0.5f * theta);
+  cells.count = Cell(512.0f);
+  put(outputs, at, float(phi_of_cell(cells, Cell(100.0f * float(alpha)))));
+  put(outputs, at, float(cell_of_phi(cells, phi)));
+  vec2 place = light_texture_place(float(theta), 0.5f * float(theta));
   put(outputs, at, place.x);
   put(outputs, at, place.y);
   TexelBlend blend = light_texture_blend(place, ivec2(40, 20));
@@ -162,14 +162,15 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   put(outputs, at, sine(4.0f * theta));
   put(outputs, at, cosine(4.0f * theta));
   put(outputs, at, sine_of_quarter(0.5f * theta));
-  put(outputs, at, angle_of(ray.x, ray.y));
+  put(outputs, at, float(angle_of(ray.x, ray.y)));
   put(outputs, at, ordered_dot(ray, l));
   put(outputs, at, unit_or(any_vector, l));
-  put(outputs, at, plane_of_theta(space, theta));
-  put(outputs, at, theta_of_plane(space, 100.0f * alpha));
-  put(outputs, at, theta_from_middle(space, theta));
-  put(outputs, at, theta_to_centre(space, theta, 10u));
-  put(outputs, at, phi_to_row_end(space, angle, ray, vec4(-ray + 0.3f * l, t), 0.002f, -0.001f));
+  put(outputs, at, float(plane_of_theta(space, theta)));
+  put(outputs, at, float(theta_of_plane(space, Cell(100.0f * float(alpha)))));
+  put(outputs, at, float(theta_from_middle(space, theta)));
+  put(outputs, at, float(theta_to_centre(space, theta, 10u)));
+  vec4 surface = vec4(-ray + 0.3f * l, t);
+  put(outputs, at, float(phi_to_row_end(space, angle, ray, surface, Angle(0.002f), Angle(-0.001f))));
 
   // A triangle in front of the eye, of the size of its distance.
   vec3 a = t * ray;
@@ -179,7 +180,7 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   float slack = position_slack(space, a, b, c);
   put(outputs, at, slack);
   put(outputs, at, distance_to_segment(vec2(ray.x, ray.y), vec2(any_vector.x, any_vector.y)));
-  put(outputs, at, wrapped(2.0f * theta));
+  put(outputs, at, float(wrapped(2.0f * theta)));
   VoxelTriangle triangle = voxel_triangle(space, a, b, c, 333u);
   put(outputs, at, triangle.a);
   put(outputs, at, triangle.planes);
@@ -187,8 +188,9 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   vec2 range = clip(vec2(0.0f, 1.0f), ray.x, g);
   put(outputs, at, range.x);
   put(outputs, at, range.y);
-  float middle = theta_of_plane(space, float(plane_at(triangle.planes, plane_count(triangle.planes) / 2u)) + 0.5f);
-  SlabPart part = part_in_slab(space, cells, triangle, middle - 0.01f, middle + 0.01f);
+  float plane = float(plane_at(triangle.planes, plane_count(triangle.planes) / 2u));
+  Angle middle = theta_of_plane(space, Cell(plane + 0.5f));
+  SlabPart part = part_in_slab(space, cells, triangle, middle - Angle(0.01f), middle + Angle(0.01f));
   put(outputs, at, part.outline);
   put(outputs, at, curvature_slack(part.outline, 0.01f));
   vec2 orders = phi_order_bounds(part.outline, slack);
@@ -200,7 +202,7 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   vec2 to_ray = boundary_ray(cells, 511u);
   put(outputs, at, to_ray.x);
   put(outputs, at, to_ray.y);
-  put(outputs, at, least_alpha_order(part.outline, from_ray, to_ray, space.distance, slack));
+  put(outputs, at, float(least_alpha_order(part.outline, from_ray, to_ray, space.distance, slack)));
   put(outputs, at, float(first_touched_cell(space, part, from_ray, to_ray, 512u)));
 }
 

@@ -47,7 +47,7 @@ class Voxels {
         distance_(glm::distance(view.lights[0].position, eye_)),
         axes_(make_axes((view.lights[0].position - eye_) / distance_)),
         space_(epipolar_block(view, view.lights[0], n, ranges, ThetaCells::fitted)),
-        cells_{static_cast<float>(phi_max), 1.5f, static_cast<float>(n.phi)},
+        cells_{shaders::Angle(static_cast<float>(phi_max)), 1.5f, shaders::Cell(static_cast<float>(n.phi))},
         first_(static_cast<std::size_t>(n.theta) * static_cast<std::size_t>(n.phi)),
         stamp_(first_.size()) {}
 

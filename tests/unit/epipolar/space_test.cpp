@@ -195,8 +195,8 @@ TEST(EpipolarBlock, SpansTheRangeWithItsCells) {
       epipolar_block(view, view.lights[0], {100, 64, 128}, Ranges::frame, ThetaCells::fitted);
   const Range range = alpha_range(scene::camera_frame(view.camera, view.size),
                                   glm::normalize(view.lights[0].position - view.camera.eye));
-  EXPECT_FLOAT_EQ(block.alpha_min, static_cast<float>(range.lower));
-  EXPECT_NEAR(static_cast<double>(block.alpha_min + 100 * block.alpha_step), range.upper, 1e-6);
+  EXPECT_FLOAT_EQ(static_cast<float>(block.alpha_min), static_cast<float>(range.lower));
+  EXPECT_NEAR(static_cast<double>(block.alpha_min + 100.0f * block.alpha_step), range.upper, 1e-6);
   EXPECT_FLOAT_EQ(block.distance, static_cast<float>(std::sqrt(9.0 + 4.0 + 25.0)));
 }
 

@@ -5,15 +5,15 @@
 template <class Note>
 void voxelize_triangle(const EpipolarBlock& space, const PhiCells& cells, const vec3& a, const vec3& b,
                        const vec3& c, uint alpha_count, uint theta_count, const Note& note) {
+  using Number = decltype(space.distance);
   const VoxelTriangle triangle = voxel_triangle(space, a, b, c, theta_count);
   const uint slabs = slabs_per_plane(space);
   for (uint index = 0; index < plane_count(triangle.planes); ++index) {
     const uint plane = plane_at(triangle.planes, index);
-    const auto border = theta_of_plane(space, decltype(space.distance)(plane));
-    const auto step = (theta_of_plane(space, decltype(space.distance)(plane + 1)) - border) /
-                      decltype(space.distance)(slabs);
+    const Angle border = theta_of_plane(space, Cell(Number(plane)));
+    const Angle step = (theta_of_plane(space, Cell(Number(plane + 1))) - border) / Number(slabs);
     for (uint slab = 0; slab < slabs; ++slab) {
-      const auto from_theta = border + decltype(space.distance)(slab) * step;
+      const Angle from_theta = border + Number(slab) * step;
       const SlabPart part = part_in_slab(space, cells, triangle, from_theta, from_theta + step);
       vec2 from = boundary_ray(cells, part.first_ray);
       for (uint k = part.first_ray; k < part.end_ray; ++k) {

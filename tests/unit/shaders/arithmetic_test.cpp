@@ -15,8 +15,17 @@ namespace {
 
 using std::numbers::pi;
 
-double exact(float value) {
+template <class Number>
+double exact(Number value) {
   return static_cast<double>(value);
+}
+
+double exact(rough::Rough value) {
+  return exact(static_cast<float>(value));
+}
+
+double exact(rough::Angle value) {
+  return exact(rough::Rough(value));
 }
 
 /// What roundings to nearest leave of what the shaders claim for any rounding.
@@ -25,7 +34,7 @@ constexpr double k_claimed = 3e-7, k_to_nearest = 1.3e-7;
 TEST(SineAndCosine, AreRightOverTheirRange) {
   double sine_error = 0.0, cosine_error = 0.0;
   for (double x = -4.0 * pi; x <= 4.0 * pi; x += 1e-5) {
-    const auto angle = static_cast<float>(x);
+    const Angle angle(static_cast<float>(x));
     sine_error = std::max(sine_error, std::abs(exact(sine(angle)) - std::sin(exact(angle))));
     cosine_error = std::max(cosine_error, std::abs(exact(cosine(angle)) - std::cos(exact(angle))));
   }
@@ -35,22 +44,22 @@ TEST(SineAndCosine, AreRightOverTheirRange) {
 
 TEST(SineAndCosine, KeepAllDigitsNearZeroAndARightAngle) {
   for (double x = 1e-37; x < 0.5 * pi; x *= 1.0003) {
-    for (const float angle : {static_cast<float>(x), static_cast<float>(-x)}) {
+    for (const Angle angle : {Angle(static_cast<float>(x)), Angle(static_cast<float>(-x))}) {
       EXPECT_NEAR(exact(sine(angle)) / std::sin(exact(angle)), 1.0, k_claimed) << angle;
       EXPECT_NEAR(exact(sine_of_quarter(angle)) / std::sin(exact(angle)), 1.0, k_claimed) << angle;
     }
     // Near ±π/2 the cosine is as small as the angle is near; π/2 itself is reduced to 5e-12.
-    const auto beside = static_cast<float>(0.5 * pi - x);
+    const Angle beside(static_cast<float>(0.5 * pi - x));
     if (x > 1e-7) {
       EXPECT_NEAR(exact(cosine(beside)) / std::cos(exact(beside)), 1.0, k_claimed + 6e-12 / x) << beside;
     }
   }
-  EXPECT_EQ(sine(0.0f), 0.0f);
-  EXPECT_FLOAT_EQ(cosine(0.0f), 1.0f);
-  EXPECT_FLOAT_EQ(sine(0.5f * k_pi), 1.0f);
-  EXPECT_FLOAT_EQ(cosine(k_pi), -1.0f);
-  EXPECT_NEAR(sine(k_pi), 0.0f, 1e-7f);
-  EXPECT_NEAR(cosine(0.5f * k_pi), 0.0f, 1e-7f);
+  EXPECT_EQ(sine(Angle(0.0f)), 0.0f);
+  EXPECT_FLOAT_EQ(cosine(Angle(0.0f)), 1.0f);
+  EXPECT_FLOAT_EQ(sine(0.5f * k_half_turn), 1.0f);
+  EXPECT_FLOAT_EQ(cosine(k_half_turn), -1.0f);
+  EXPECT_NEAR(sine(k_half_turn), 0.0f, 1e-7f);
+  EXPECT_NEAR(cosine(0.5f * k_half_turn), 0.0f, 1e-7f);
 }
 
 TEST(SineAndCosine, OfABorderBetweenHalfTurnsAreContinuous) {
@@ -59,8 +68,8 @@ TEST(SineAndCosine, OfABorderBetweenHalfTurnsAreContinuous) {
       auto below = static_cast<float>((half_turn + offset) * pi);
       for (int i = 0; i < 8; ++i) below = std::nextafter(below, -20.0f);
       for (int i = 0; i < 16; ++i, below = std::nextafter(below, 20.0f)) {
-        EXPECT_NEAR(exact(sine(below)), std::sin(exact(below)), k_to_nearest);
-        EXPECT_NEAR(exact(cosine(below)), std::cos(exact(below)), k_to_nearest);
+        EXPECT_NEAR(exact(sine(Angle(below))), std::sin(exact(below)), k_to_nearest);
+        EXPECT_NEAR(exact(cosine(Angle(below))), std::cos(exact(below)), k_to_nearest);
       }
     }
   }
@@ -75,9 +84,9 @@ TEST(AngleOf, IsRightInAllFourQuadrants) {
     const double angle = std::atan2(exact(y), exact(x));
     EXPECT_NEAR(exact(angle_of(y, x)), angle, 2e-7 * std::abs(angle)) << y << " " << x;
   }
-  EXPECT_EQ(angle_of(0.0f, 0.0f), 0.0f);
-  EXPECT_EQ(angle_of(0.0f, 1.0f), 0.0f);
-  EXPECT_EQ(angle_of(0.0f, -1.0f), k_pi);
+  EXPECT_EQ(angle_of(0.0f, 0.0f), Angle(0.0f));
+  EXPECT_EQ(angle_of(0.0f, 1.0f), Angle(0.0f));
+  EXPECT_EQ(angle_of(0.0f, -1.0f), k_half_turn);
 }
 
 /// What shaders/arithmetic.glsl claims, in the worst arithmetic that GLSL allows.
@@ -90,11 +99,11 @@ TEST_P(InRoughArithmetic, SinesAreRightToThreeTenMillionths) {
   tests::Random random(4);
   for (int i = 0; i < 300000; ++i) {
     const auto x = static_cast<float>(random.uniform(-4.0 * pi, 4.0 * pi));
-    EXPECT_NEAR(exact(static_cast<float>(rough::sine(x))), std::sin(exact(x)), k_claimed) << x;
-    EXPECT_NEAR(exact(static_cast<float>(rough::cosine(x))), std::cos(exact(x)), k_claimed) << x;
+    EXPECT_NEAR(exact(rough::sine(rough::Angle(x))), std::sin(exact(x)), k_claimed) << x;
+    EXPECT_NEAR(exact(rough::cosine(rough::Angle(x))), std::cos(exact(x)), k_claimed) << x;
     const auto small = static_cast<float>(random.logarithmic(1e-30, 0.5 * pi));
-    EXPECT_NEAR(exact(static_cast<float>(rough::sine(small))) / std::sin(exact(small)), 1.0, 4e-7) << small;
-    EXPECT_NEAR(exact(static_cast<float>(rough::sine_of_quarter(small))) / std::sin(exact(small)), 1.0, 4e-7)
+    EXPECT_NEAR(exact(rough::sine(rough::Angle(small))) / std::sin(exact(small)), 1.0, 4e-7) << small;
+    EXPECT_NEAR(exact(rough::sine_of_quarter(rough::Angle(small))) / std::sin(exact(small)), 1.0, 4e-7)
         << small;
   }
 }
@@ -104,16 +113,15 @@ TEST_P(InRoughArithmetic, AnglesAreRightToTwelveTenMillionths) {
   for (int i = 0; i < 300000; ++i) {
     const auto x = static_cast<float>(random.uniform(-1, 1) * random.logarithmic(1e-6, 1));
     const auto y = static_cast<float>(random.uniform(-1, 1) * random.logarithmic(1e-6, 1));
-    EXPECT_NEAR(exact(static_cast<float>(rough::angle_of(y, x))), std::atan2(exact(y), exact(x)), 1.2e-6)
-        << y << " " << x;
+    EXPECT_NEAR(exact(rough::angle_of(y, x)), std::atan2(exact(y), exact(x)), 1.2e-6) << y << " " << x;
   }
 }
 
 TEST_P(InRoughArithmetic, AnOrderRoundedBeyondItsRangeIsStillAnAngle) {
   for (int i = 0; i < 1000; ++i) {
-    const float back = static_cast<float>(rough::angle_from_order(rough::angle_order(0.0f, -1.3f)));
+    const rough::Angle back = rough::angle_from_order(rough::angle_order(0.0f, -1.3f));
     EXPECT_NEAR(exact(back), pi, 2e-6);
-    const float ahead = static_cast<float>(rough::angle_from_order(rough::angle_order(0.0f, 1.3f)));
+    const rough::Angle ahead = rough::angle_from_order(rough::angle_order(0.0f, 1.3f));
     EXPECT_NEAR(exact(ahead), 0.0, 2e-6);
   }
 }

@@ -10,15 +10,30 @@
 namespace airlight::shaders {
 namespace {
 
+constexpr Angle k_turn = 2.0f * k_half_turn;
+
+float number(Angle angle) {
+  return static_cast<float>(angle);
+}
+
+Cell cells_from_start(uint boundary, float further = 0.0f) {
+  return Cell(static_cast<float>(boundary) + further);
+}
+
+/// The same direction within half a turn of 0.
+Angle wrapped_about_zero(Angle angle) {
+  return Angle(std::remainder(number(angle), number(k_turn)));
+}
+
 EpipolarBlock make_range(float alpha_min, float alpha_max, uint count) {
   EpipolarBlock space{};
-  space.alpha_min = alpha_min;
-  space.alpha_step = (alpha_max - alpha_min) / static_cast<float>(count);
+  space.alpha_min = Angle(alpha_min);
+  space.alpha_step = Angle((alpha_max - alpha_min) / static_cast<float>(count));
   return space;
 }
 
 /// θ cells of a range around `middle`.
-EpipolarBlock theta_space(float middle, float half, uint count, float growth = 0.0f) {
+EpipolarBlock theta_space(Angle middle, Angle half, uint count, float growth = 0.0f) {
   EpipolarBlock space{};
   space.theta_middle = middle;
   space.theta_half = half;
@@ -31,13 +46,13 @@ class ThetaCell : public testing::TestWithParam<uint> {};
 
 TEST_P(ThetaCell, OfEachCentreIsThatCell) {
   const uint count = GetParam();
-  for (const float middle : {0.0f, 1.0f, -3.1f, k_pi}) {
-    for (const float half : {k_pi, 1.4f, 0.01f}) {
+  for (const Angle middle : {Angle(0.0f), Angle(1.0f), Angle(-3.1f), k_half_turn}) {
+    for (const Angle half : {k_half_turn, Angle(1.4f), Angle(0.01f)}) {
       const EpipolarBlock space = theta_space(middle, half, count);
       // The centres of narrow cells are not told from their borders in single precision.
-      if (space.theta_step < 1e-5f) continue;
+      if (space.theta_step < Angle(1e-5f)) continue;
       for (uint j = 0; j < count; ++j) {
-        const float theta = std::remainder(theta_centre(space, j), 2.0f * k_pi);
+        const Angle theta = wrapped_about_zero(theta_centre(space, j));
         EXPECT_EQ(theta_cell(space, theta, count), j) << middle << " ± " << half;
       }
     }
@@ -47,49 +62,51 @@ TEST_P(ThetaCell, OfEachCentreIsThatCell) {
 TEST_P(ThetaCell, OfAFittedTurnIsInvertedByItsCentre) {
   const uint count = GetParam();
   for (const float growth : {0.1f, 0.5f, 0.8f}) {
-    const EpipolarBlock space = theta_space(1.0f, k_pi, count, growth);
-    if ((1.0f - growth) * space.theta_step < 1e-5f) continue;
-    float before = -k_pi;
+    const EpipolarBlock space = theta_space(Angle(1.0f), k_half_turn, count, growth);
+    if ((1.0f - growth) * space.theta_step < Angle(1e-5f)) continue;
+    Angle before = -k_half_turn;
     for (uint j = 0; j < count; ++j) {
-      const float x = theta_of_plane(space, static_cast<float>(j) + 0.5f);
+      const Angle x = theta_of_plane(space, cells_from_start(j, 0.5f));
       EXPECT_GT(x, before);
       before = x;
-      EXPECT_NEAR(plane_of_theta(space, x), static_cast<float>(j) + 0.5f, 2e-6f / space.theta_step);
-      const float theta = std::remainder(theta_centre(space, j), 2.0f * k_pi);
+      EXPECT_NEAR(static_cast<float>(plane_of_theta(space, x)), static_cast<float>(j) + 0.5f,
+                  Angle(2e-6f) / space.theta_step);
+      const Angle theta = wrapped_about_zero(theta_centre(space, j));
       EXPECT_EQ(theta_cell(space, theta, count), j);
       // A little beside the centre, it is found again.
-      const float beside = std::remainder(theta + 0.2f * space.theta_step, 2.0f * k_pi);
-      EXPECT_NEAR(theta_to_centre(space, beside, j), -0.2f * space.theta_step,
-                  4e-6f + 0.3f * space.theta_step * space.theta_step);
+      const Angle beside = wrapped_about_zero(theta + 0.2f * space.theta_step);
+      const float step = number(space.theta_step);
+      EXPECT_NEAR(number(theta_to_centre(space, beside, j)), -0.2f * step, 4e-6f + 0.3f * step * step);
     }
-    EXPECT_NEAR(theta_of_plane(space, 0.0f), -k_pi, 2e-6f);
-    EXPECT_NEAR(theta_of_plane(space, static_cast<float>(count)), k_pi, 2e-6f);
+    EXPECT_NEAR(number(theta_of_plane(space, Cell(0.0f))), -k_pi, 2e-6f);
+    EXPECT_NEAR(number(theta_of_plane(space, cells_from_start(count))), k_pi, 2e-6f);
   }
 }
 
 TEST_P(ThetaCell, WrapsAtPi) {
   const uint count = GetParam();
-  const EpipolarBlock space = theta_space(0.0f, k_pi, count);
-  EXPECT_EQ(theta_cell(space, -k_pi, count), 0u);
-  EXPECT_EQ(theta_cell(space, k_pi, count), count - 1);
+  const EpipolarBlock space = theta_space(Angle(0.0f), k_half_turn, count);
+  EXPECT_EQ(theta_cell(space, -k_half_turn, count), 0u);
+  EXPECT_EQ(theta_cell(space, k_half_turn, count), count - 1);
   // The first and the last centre are one step apart across the seam.
-  EXPECT_NEAR(theta_centre(space, 0) + 2.0f * k_pi - theta_centre(space, count - 1), space.theta_step, 1e-6f);
+  const Angle across = theta_centre(space, 0) + k_turn - theta_centre(space, count - 1);
+  EXPECT_NEAR(number(across), number(space.theta_step), 1e-6f);
 }
 
 TEST_P(ThetaCell, HoldsWhatIsNearerToItsCentreThanToOthers) {
   tests::Random random(10);
   const uint count = GetParam();
   for (int i = 0; i < 10000; ++i) {
-    const auto half = static_cast<float>(random.uniform(0.1, 3.14159265));
-    const EpipolarBlock space =
-        theta_space(static_cast<float>(random.uniform(-3.14159265, 3.14159265)), half, count);
-    const float from_middle = static_cast<float>(random.uniform(-1.0, 1.0)) * half;
-    const float theta = std::remainder(space.theta_middle + from_middle, 2.0f * k_pi);
+    const Angle half(static_cast<float>(random.uniform(0.1, 3.14159265)));
+    const Angle middle(static_cast<float>(random.uniform(-3.14159265, 3.14159265)));
+    const EpipolarBlock space = theta_space(middle, half, count);
+    const Angle from_middle = static_cast<float>(random.uniform(-1.0, 1.0)) * half;
+    const Angle theta = wrapped_about_zero(space.theta_middle + from_middle);
     const uint j = theta_cell(space, theta, count);
     ASSERT_LT(j, count);
-    const float from_centre = std::remainder(theta - theta_centre(space, j), 2.0f * k_pi);
+    const Angle from_centre = wrapped_about_zero(theta - theta_centre(space, j));
     // Sums of angles carry roundings of 2⁻²² each.
-    EXPECT_LE(std::abs(from_centre), 0.5f * space.theta_step + 2e-6f);
+    EXPECT_LE(std::abs(number(from_centre)), 0.5f * number(space.theta_step) + 2e-6f);
   }
 }
 
@@ -99,7 +116,7 @@ TEST(AlphaCell, OfEachCentreIsThatCell) {
   for (uint count : {1u, 5u, 512u, 4096u}) {
     const EpipolarBlock space = make_range(0.7f, 1.9f, count);
     for (uint i = 0; i < count; ++i) {
-      const float centre = space.alpha_min + (static_cast<float>(i) + 0.5f) * space.alpha_step;
+      const Angle centre = space.alpha_min + (static_cast<float>(i) + 0.5f) * space.alpha_step;
       EXPECT_EQ(alpha_cell(space, centre, count), i);
     }
   }
@@ -107,15 +124,15 @@ TEST(AlphaCell, OfEachCentreIsThatCell) {
 
 TEST(AlphaCell, IsTheNearestOutsideTheRange) {
   const EpipolarBlock space = make_range(0.7f, 1.9f, 16);
-  EXPECT_EQ(alpha_cell(space, 0.0f, 16), 0u);
-  EXPECT_EQ(alpha_cell(space, 0.7f, 16), 0u);
-  EXPECT_EQ(alpha_cell(space, 1.9f, 16), 15u);
-  EXPECT_EQ(alpha_cell(space, 3.1f, 16), 15u);
+  EXPECT_EQ(alpha_cell(space, Angle(0.0f), 16), 0u);
+  EXPECT_EQ(alpha_cell(space, Angle(0.7f), 16), 0u);
+  EXPECT_EQ(alpha_cell(space, Angle(1.9f), 16), 15u);
+  EXPECT_EQ(alpha_cell(space, Angle(3.1f), 16), 15u);
 }
 
 TEST(FirstShadowedCell, StartsAtTheNearestBoundary) {
   const EpipolarBlock space = make_range(1.0f, 2.0f, 10);
-  const auto at = [&](float cells) { return first_shadowed_cell(space, 1.0f + 0.1f * cells, 10); };
+  const auto at = [&](float cells) { return first_shadowed_cell(space, Angle(1.0f + 0.1f * cells), 10); };
   // An occluder within half a cell of boundary i makes cell i the first whose centre is dark: its centre, at
   // i + ½, is not before the occluder, and that of cell i − 1 is.
   EXPECT_EQ(at(0.0f), 0u);
@@ -131,55 +148,58 @@ TEST(FirstShadowedCell, TheCentreOfTheFirstLiesBehindTheOccluderAndTheOneBeforeD
   const uint count = 512;
   const EpipolarBlock space = make_range(0.3f, 2.9f, count);
   for (int n = 0; n < 10000; ++n) {
-    const auto alpha = static_cast<float>(random.uniform(0.3, 2.9));
+    const Angle alpha(static_cast<float>(random.uniform(0.3, 2.9)));
     const uint i = first_shadowed_cell(space, alpha, count);
-    const float centre = space.alpha_min + (static_cast<float>(i) + 0.5f) * space.alpha_step;
-    EXPECT_GE(centre, alpha - 1e-6f);
-    EXPECT_LE(centre - space.alpha_step, alpha + 1e-6f);
+    const Angle centre = space.alpha_min + (static_cast<float>(i) + 0.5f) * space.alpha_step;
+    EXPECT_GE(centre, alpha - Angle(1e-6f));
+    EXPECT_LE(centre - space.alpha_step, alpha + Angle(1e-6f));
   }
 }
 
 TEST(FirstShadowedCell, AnOccluderNearerTheAxisThanTheRangeShadowsAllOfIt) {
   const EpipolarBlock space = make_range(1.0f, 2.0f, 10);
-  EXPECT_EQ(first_shadowed_cell(space, 0.0f, 10), 0u);
-  EXPECT_EQ(first_shadowed_cell(space, 0.9f, 10), 0u);
+  EXPECT_EQ(first_shadowed_cell(space, Angle(0.0f), 10), 0u);
+  EXPECT_EQ(first_shadowed_cell(space, Angle(0.9f), 10), 0u);
 }
 
 TEST(FirstShadowedCell, AnOccluderBeyondTheRangeShadowsNone) {
   const EpipolarBlock space = make_range(1.0f, 2.0f, 10);
-  EXPECT_EQ(first_shadowed_cell(space, 1.96f, 10), 10u);
-  EXPECT_EQ(first_shadowed_cell(space, 2.0f, 10), 10u);
-  EXPECT_EQ(first_shadowed_cell(space, 3.0f, 10), 10u);
+  EXPECT_EQ(first_shadowed_cell(space, Angle(1.96f), 10), 10u);
+  EXPECT_EQ(first_shadowed_cell(space, Angle(2.0f), 10), 10u);
+  EXPECT_EQ(first_shadowed_cell(space, Angle(3.0f), 10), 10u);
 }
 
 TEST(PhiCells, CoverTheRangeAndGrowFromTheFirstToTheLast) {
   for (float growth : {0.0f, 0.5f, 4.0f}) {
-    const PhiCells cells{2.0f, growth, 256.0f};
-    EXPECT_EQ(phi_of_cell(cells, 0.0f), 0.0f);
-    EXPECT_FLOAT_EQ(phi_of_cell(cells, 256.0f), 2.0f);
-    const float first = phi_of_cell(cells, 1.0f),
-                last = phi_of_cell(cells, 256.0f) - phi_of_cell(cells, 255.0f);
+    const PhiCells cells{Angle(2.0f), growth, Cell(256.0f)};
+    EXPECT_EQ(phi_of_cell(cells, Cell(0.0f)), Angle(0.0f));
+    EXPECT_FLOAT_EQ(number(phi_of_cell(cells, Cell(256.0f))), 2.0f);
+    const Angle first = phi_of_cell(cells, Cell(1.0f)),
+                last = phi_of_cell(cells, Cell(256.0f)) - phi_of_cell(cells, Cell(255.0f));
     EXPECT_NEAR(last / first, 1.0f + 2.0f * growth, 0.05f * (1.0f + growth)) << "1 + 2c, to a cell's width";
-    for (float k = 0.0f; k < 256.0f; k += 1.0f)
-      EXPECT_GT(phi_of_cell(cells, k + 1.0f), phi_of_cell(cells, k));
+    for (uint k = 0; k < 256; ++k)
+      EXPECT_GT(phi_of_cell(cells, cells_from_start(k + 1)), phi_of_cell(cells, cells_from_start(k)));
   }
 }
 
 TEST(PhiCells, WithoutGrowthAreEqual) {
-  const PhiCells cells{3.0f, 0.0f, 128.0f};
-  for (float k = 0.0f; k <= 128.0f; k += 0.5f) EXPECT_FLOAT_EQ(phi_of_cell(cells, k), 3.0f * k / 128.0f);
+  const PhiCells cells{Angle(3.0f), 0.0f, Cell(128.0f)};
+  for (float k = 0.0f; k <= 128.0f; k += 0.5f)
+    EXPECT_FLOAT_EQ(number(phi_of_cell(cells, Cell(k))), 3.0f * k / 128.0f);
 }
 
 TEST(PhiCells, AreFoundAgainByTheirPhi) {
   tests::Random random(12);
   for (int i = 0; i < 20000; ++i) {
-    const PhiCells cells{static_cast<float>(random.uniform(1e-3, 3.14)),
-                         static_cast<float>(random.uniform(0, 4)), 512.0f};
+    const PhiCells cells{Angle(static_cast<float>(random.uniform(1e-3, 3.14))),
+                         static_cast<float>(random.uniform(0, 4)), Cell(512.0f)};
     const auto cell = static_cast<float>(random.uniform(0, 512));
-    EXPECT_NEAR(cell_of_phi(cells, phi_of_cell(cells, cell)), cell, 3e-6f * cell + 1e-30f);
+    EXPECT_NEAR(static_cast<float>(cell_of_phi(cells, phi_of_cell(cells, Cell(cell)))), cell,
+                3e-6f * cell + 1e-30f);
   }
-  EXPECT_EQ(cell_of_phi({1.0f, 2.0f, 512.0f}, 0.0f), 0.0f);
-  EXPECT_FLOAT_EQ(cell_of_phi({1.0f, 2.0f, 512.0f}, 1.0f), 512.0f);
+  const PhiCells cells{Angle(1.0f), 2.0f, Cell(512.0f)};
+  EXPECT_EQ(cell_of_phi(cells, Angle(0.0f)), Cell(0.0f));
+  EXPECT_FLOAT_EQ(static_cast<float>(cell_of_phi(cells, Angle(1.0f))), 512.0f);
 }
 
 TEST(GridWord, EveryWordHasAPlaceOfItsOwn) {

@@ -14,8 +14,13 @@ namespace {
 
 using std::numbers::pi;
 
-double exact(float value) {
+template <class Number>
+double exact(Number value) {
   return static_cast<double>(value);
+}
+
+Angle single(double angle) {
+  return Angle(static_cast<float>(angle));
 }
 
 /// ∫ f over [−1, 1] by Gauss–Legendre's two-point rule on cells that shrink towards both ends, where the
@@ -140,8 +145,8 @@ TEST(AirlightIntegrand, EqualsTheDoublePrecisionOne) {
     const uint kind = random.bits() % 4;
     const MediumBlock medium = make_medium(glm::vec3(random.logarithmic(1e-4, 0.1), 0.01, 0.0),
                                            static_cast<float>(random.uniform(-0.8, 0.8)), 0.4f);
-    const auto complement = static_cast<float>(random.uniform(1e-3, 3.14));
-    const auto phi = complement * static_cast<float>(random.uniform(0.0, 0.99));
+    const Angle complement = single(random.uniform(1e-3, 3.14));
+    const Angle phi = complement * static_cast<float>(random.uniform(0.0, 0.99));
     const glm::vec3 value = airlight_integrand(space, medium, kind, complement, phi);
     for (int channel = 0; channel < 3; ++channel) {
       const double sigma = exact(medium.sigma_t[channel]);
@@ -160,8 +165,8 @@ TEST(AirlightIntegrand, IsZeroAtInfinityWhereTheMediumAbsorbs) {
   EpipolarBlock space{};
   space.distance = 2.0f;
   const MediumBlock medium = make_medium({0.1f, 0.2f, 0.3f}, 0.0f);
-  for (float complement : {1e-5f, 1.0f, 3.0f}) {
-    for (float phi : {complement, 1.1f * complement}) {
+  for (const Angle complement : {Angle(1e-5f), Angle(1.0f), Angle(3.0f)}) {
+    for (const Angle phi : {complement, 1.1f * complement}) {
       const glm::vec3 value = airlight_integrand(space, medium, k_isotropic, complement, phi);
       for (int channel = 0; channel < 3; ++channel) {
         EXPECT_GE(value[channel], 0.0f);
@@ -184,9 +189,8 @@ TEST(IntegrateCell, MatchesHighOrderQuadratureOnTheCellsOfAGrid) {
     const double width = pi / 512;
     const double from = random.uniform(0, 0.9) * complement, to = std::min(from + width, 0.97 * complement);
     if (to <= from) continue;
-    const float single_from = static_cast<float>(from), single_to = static_cast<float>(to);
-    const float value =
-        integrate_cell(space, medium, kind, static_cast<float>(complement), single_from, single_to).x;
+    const Angle single_from = single(from), single_to = single(to);
+    const float value = integrate_cell(space, medium, kind, single(complement), single_from, single_to).x;
     double expected = 0.0;
     const int panels = 64;
     const double h = (exact(single_to) - exact(single_from)) / panels;
@@ -195,7 +199,7 @@ TEST(IntegrateCell, MatchesHighOrderQuadratureOnTheCellsOfAGrid) {
       for (double phi : {middle - offset, middle + offset}) {
         expected += 0.5 * h *
                     integrand_in_double(exact(space.distance), exact(medium.sigma_t.x), kind, medium,
-                                        exact(static_cast<float>(complement)), phi);
+                                        exact(single(complement)), phi);
       }
     }
     if (expected < 1e-20) continue;
@@ -214,11 +218,10 @@ TEST(IntegrateCell, SumsToTheIntegralOfTheWholeRay) {
     space.distance = 1.0f;
     const uint kind = random.bits() % 4;
     const MediumBlock medium = make_medium(glm::vec3(static_cast<float>(random.logarithmic(1e-3, 3))), 0.6f);
-    const auto complement = static_cast<float>(random.logarithmic(1e-3, 3.1));
+    const Angle complement = single(random.logarithmic(1e-3, 3.1));
     double sum = 0.0;
     for (int k = 0; k * width < exact(complement); ++k) {
-      const auto from = static_cast<float>(k * width),
-                 to = std::min(static_cast<float>((k + 1) * width), complement);
+      const Angle from = single(k * width), to = min(single((k + 1) * width), complement);
       sum += exact(integrate_cell(space, medium, kind, complement, from, to).x);
     }
     double expected = 0.0;

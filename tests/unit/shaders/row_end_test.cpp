@@ -51,9 +51,9 @@ float by_shader(const Scene& scene) {
   space.distance = static_cast<float>(scene.distance);
   const EyeAngle angle{.sine = static_cast<float>(std::sin(scene.alpha)),
                        .cosine = static_cast<float>(std::cos(scene.alpha))};
-  return phi_to_row_end(space, angle, glm::vec3(direction(scene.alpha, scene.theta)),
-                        glm::vec4(scene.normal, scene.w), static_cast<float>(scene.d_alpha),
-                        static_cast<float>(scene.d_theta));
+  return static_cast<float>(phi_to_row_end(
+      space, angle, glm::vec3(direction(scene.alpha, scene.theta)), glm::vec4(scene.normal, scene.w),
+      Angle(static_cast<float>(scene.d_alpha)), Angle(static_cast<float>(scene.d_theta))));
 }
 
 TEST(PhiToRowEnd, IsTheChangeOfPhiOnThePlane) {
@@ -106,9 +106,9 @@ TEST(PhiToRowEnd, OfARowParallelToThePlaneIsTheEndOfItsRay) {
   space.distance = 2.0f;
   const EyeAngle angle{.sine = 0.6f, .cosine = 0.8f};
   // u is downwards: the pixel's ray meets the floor, and the row's is the axis itself.
-  const float d_alpha = -0.75f;  // α' = 0 to first order: 0.6 − 0.75 · 0.8
-  const float end =
-      phi_to_row_end(space, angle, {0.6f, 0.0f, 0.8f}, {-1.0f, 0.0f, 0.0f, 1.0f}, d_alpha, 0.0f);
+  const Angle d_alpha(-0.75f);  // α' = 0 to first order: 0.6 − 0.75 · 0.8
+  const auto end = static_cast<float>(
+      phi_to_row_end(space, angle, {0.6f, 0.0f, 0.8f}, {-1.0f, 0.0f, 0.0f, 1.0f}, d_alpha, Angle(0.0f)));
   EXPECT_TRUE(std::isfinite(end));
   EXPECT_GT(end, 1.0f) << "beyond any cell in question";
 }
@@ -139,8 +139,8 @@ TEST(PhiToRowEnd, IsZeroWithoutAnythingToGoBy) {
   space.axis = {0.0f, 0.0f, 1.0f};
   space.distance = 2.0f;
   EXPECT_EQ(phi_to_row_end(space, {.sine = 0.6f, .cosine = 0.8f}, {0.6f, 0.0f, 0.8f},
-                           {0.0f, 1.0f, 0.0f, 1.0f}, 0.001f, 0.0f),
-            0.0f);
+                           {0.0f, 1.0f, 0.0f, 1.0f}, Angle(0.001f), Angle(0.0f)),
+            Angle(0.0f));
 }
 
 }  // namespace

@@ -31,8 +31,17 @@ EpipolarBlock make_space(glm::dvec3 axis, double distance) {
   return space;
 }
 
-double exact(float value) {
+template <class Number>
+double exact(Number value) {
   return static_cast<double>(value);
+}
+
+float number(Angle angle) {
+  return static_cast<float>(angle);
+}
+
+Angle single(double angle) {
+  return Angle(static_cast<float>(angle));
 }
 
 EyeAngle make_angle(double alpha) {
@@ -54,14 +63,14 @@ TEST(EyeAngle, IsZeroRightAndStraight) {
   const EpipolarBlock space = make_space({0, 0, 1}, 1.0);
   const EyeAngle ahead = eye_angle(space, {0, 0, 1}, 0.0f);
   EXPECT_EQ(ahead.sine, 0.0f);
-  EXPECT_EQ(alpha_of(ahead), 0.0f);
-  EXPECT_FLOAT_EQ(alpha_complement(ahead), k_pi);
+  EXPECT_EQ(alpha_of(ahead), Angle(0.0f));
+  EXPECT_FLOAT_EQ(number(alpha_complement(ahead)), k_pi);
   const EyeAngle across = eye_angle(space, {0, 1, 0}, 0.0f);
-  EXPECT_FLOAT_EQ(alpha_of(across), 0.5f * k_pi);
-  EXPECT_FLOAT_EQ(alpha_complement(across), 0.5f * k_pi);
+  EXPECT_FLOAT_EQ(number(alpha_of(across)), 0.5f * k_pi);
+  EXPECT_FLOAT_EQ(number(alpha_complement(across)), 0.5f * k_pi);
   const EyeAngle back = eye_angle(space, {0, 0, -1}, 0.0f);
-  EXPECT_FLOAT_EQ(alpha_of(back), k_pi);
-  EXPECT_EQ(alpha_complement(back), 0.0f);
+  EXPECT_FLOAT_EQ(number(alpha_of(back)), k_pi);
+  EXPECT_EQ(alpha_complement(back), Angle(0.0f));
 }
 
 TEST(EyeAngle, KeepsAllDigitsNearTheAxis) {
@@ -102,46 +111,49 @@ TEST(EyeAngle, StaysAQuarterPixelOffTheAxis) {
     EXPECT_EQ(eye_angle(space, glm::normalize(glm::vec3(offset, 0, 1)), quarter).sine, quarter);
     EXPECT_EQ(eye_angle(space, glm::normalize(glm::vec3(offset, 0, -1)), quarter).sine, quarter);
   }
-  EXPECT_FLOAT_EQ(alpha_of(eye_angle(space, {0, 0, 1}, quarter)), quarter);
+  EXPECT_FLOAT_EQ(number(alpha_of(eye_angle(space, {0, 0, 1}, quarter))), quarter);
   EXPECT_NEAR(eye_angle(space, glm::normalize(glm::vec3(2e-3f, 0, 1)), quarter).sine, 2e-3f, 1e-8f);
 }
 
 TEST(Theta, GrowsFromUTowardsF) {
   const EpipolarBlock space = make_space(glm::normalize(glm::dvec3(1, 2, 3)), 1.0);
-  EXPECT_NEAR(theta_of(space, space.u), 0.0f, 1e-6f);
-  EXPECT_NEAR(theta_of(space, space.f), 0.5f * k_pi, 1e-6f);
-  EXPECT_NEAR(std::abs(theta_of(space, -space.u)), k_pi, 1e-6f);
-  EXPECT_NEAR(theta_of(space, -space.f), -0.5f * k_pi, 1e-6f);
+  EXPECT_NEAR(exact(theta_of(space, space.u)), 0.0, k_single);
+  EXPECT_NEAR(exact(theta_of(space, space.f)), 0.5 * k_pi_exactly, k_single);
+  EXPECT_NEAR(std::abs(exact(theta_of(space, -space.u))), k_pi_exactly, k_single);
+  EXPECT_NEAR(exact(theta_of(space, -space.f)), -0.5 * k_pi_exactly, k_single);
 }
 
 TEST(Theta, IsZeroOnTheAxis) {
   const EpipolarBlock space = make_space({0, 0, 1}, 1.0);
-  EXPECT_EQ(theta_of(space, {0, 0, 0}), 0.0f);
-  EXPECT_EQ(theta_of(space, {0, 0, 5}), 0.0f);
-  EXPECT_EQ(theta_of(space, {0, 0, -5}), 0.0f);
+  EXPECT_EQ(theta_of(space, {0, 0, 0}), Angle(0.0f));
+  EXPECT_EQ(theta_of(space, {0, 0, 5}), Angle(0.0f));
+  EXPECT_EQ(theta_of(space, {0, 0, -5}), Angle(0.0f));
 }
 
 TEST(Theta, DoesNotDependOnWhereInTheHalfPlaneAVectorPoints) {
   Random random(2);
   for (int i = 0; i < 10000; ++i) {
     const EpipolarBlock space = make_space(random.direction(), 1.0);
-    const auto theta = static_cast<float>(random.uniform(-3.14, 3.14));
-    const auto alpha = static_cast<float>(random.uniform(0.01, 3.13));
+    const Angle theta = single(random.uniform(-3.14, 3.14));
+    const Angle alpha = single(random.uniform(0.01, 3.13)), phi = alpha;
     // 1/sin α magnifies the rounding of the vector's components.
-    EXPECT_NEAR(theta_of(space, view_ray_of(space, alpha, theta)), theta, 4e-7f / std::sin(alpha)) << alpha;
-    EXPECT_NEAR(theta_of(space, light_ray(space, theta, alpha)), theta, 4e-7f / std::sin(alpha));
+    const double tolerance = 4e-7 / std::sin(exact(alpha));
+    EXPECT_NEAR(exact(theta_of(space, view_ray_of(space, alpha, theta))), exact(theta), tolerance) << alpha;
+    EXPECT_NEAR(exact(theta_of(space, light_ray(space, theta, phi))), exact(theta), tolerance);
   }
 }
 
 TEST(Theta, TheTwoSidesOfTheSeamMeet) {
   const EpipolarBlock space = make_space(glm::normalize(glm::dvec3(3, -1, 2)), 1.0);
-  for (float alpha : {0.1f, 1.5f, 3.0f}) {
-    const glm::vec3 below = view_ray_of(space, alpha, -k_pi), above = view_ray_of(space, alpha, k_pi);
+  for (const Angle alpha : {Angle(0.1f), Angle(1.5f), Angle(3.0f)}) {
+    const glm::vec3 below = view_ray_of(space, alpha, -k_half_turn),
+                    above = view_ray_of(space, alpha, k_half_turn);
     for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(below[axis], above[axis], 3e-7f);
   }
-  for (float offset : {1e-3f, 1e-5f}) {
-    EXPECT_NEAR(theta_of(space, view_ray_of(space, 1.0f, k_pi - offset)), k_pi - offset, 1e-6f);
-    EXPECT_NEAR(theta_of(space, view_ray_of(space, 1.0f, offset - k_pi)), offset - k_pi, 1e-6f);
+  for (const Angle offset : {Angle(1e-3f), Angle(1e-5f)}) {
+    for (const Angle theta : {k_half_turn - offset, offset - k_half_turn}) {
+      EXPECT_NEAR(exact(theta_of(space, view_ray_of(space, Angle(1.0f), theta))), exact(theta), k_single);
+    }
   }
 }
 
@@ -149,10 +161,10 @@ TEST(Phi, IsZeroAtTheEyeAndGrowsToPiMinusAlpha) {
   const EpipolarBlock space = make_space({0, 0, 1}, 2.0);
   for (double alpha : {0.01, 0.5, 1.5707963, 2.5, 3.13}) {
     const EyeAngle angle = make_angle(alpha);
-    EXPECT_EQ(phi_at(space, angle, 0.0f), 0.0f);
-    float last = 0.0f;
+    EXPECT_EQ(phi_at(space, angle, 0.0f), Angle(0.0f));
+    Angle last(0.0f);
     for (double t = 1e-6; t < 1e7; t *= 1.5) {
-      const float phi = phi_at(space, angle, static_cast<float>(t));
+      const Angle phi = phi_at(space, angle, static_cast<float>(t));
       EXPECT_GE(phi, last);
       last = phi;
     }
@@ -194,8 +206,7 @@ TEST(Phi, AndTheDistanceFromTheEyeAreInverse) {
     const double alpha = random.uniform(1e-3, k_pi_exactly - 1e-3);
     const EyeAngle angle = make_angle(alpha);
     const double phi = (k_pi_exactly - alpha) * random.uniform(1e-4, 0.99);
-    const auto single_phi = static_cast<float>(phi);
-    const float t = distance_from_eye(space, angle, single_phi);
+    const float t = distance_from_eye(space, angle, single(phi));
     // Where the rays are nearly parallel, or the point is near the light, t magnifies the rounding of φ:
     // dt/dφ = r²/(D sin α), dφ/dt = D sin α / r².
     const double r = exact(space.distance) * std::sin(alpha) / std::sin(alpha + phi);
@@ -214,7 +225,7 @@ TEST(Phi, LawOfSinesHolds) {
   for (double alpha : {0.2, 1.0, 2.0}) {
     for (double share : {0.1, 0.5, 0.9}) {
       const double phi = share * (k_pi_exactly - alpha);
-      const float t = distance_from_eye(space, make_angle(alpha), static_cast<float>(phi));
+      const float t = distance_from_eye(space, make_angle(alpha), single(phi));
       EXPECT_NEAR(exact(t) / std::sin(phi), 3.0 / std::sin(alpha + phi), 1e-5);
     }
   }
@@ -238,8 +249,9 @@ TEST(AlphaAt, IsTheAngleOfAPointOnALightRay) {
 TEST(AlphaAt, FallsFromPiMinusPhiAtInfinityToZeroAtTheLight) {
   const EpipolarBlock space = make_space({0, 0, 1}, 1.0);
   for (float phi : {0.3f, 1.5f, 3.0f}) {
-    EXPECT_EQ(alpha_at(space, std::sin(phi), std::cos(phi), 0.0f), 0.0f);
-    EXPECT_NEAR(alpha_at(space, std::sin(phi), std::cos(phi), 1e8f), k_pi - phi, 1e-6f);
+    EXPECT_EQ(alpha_at(space, std::sin(phi), std::cos(phi), 0.0f), Angle(0.0f));
+    EXPECT_NEAR(exact(alpha_at(space, std::sin(phi), std::cos(phi), 1e8f)), k_pi_exactly - exact(phi),
+                k_single);
   }
 }
 
@@ -248,12 +260,12 @@ TEST(Rays, TheLightRayAndTheViewRayMeet) {
   for (int i = 0; i < 20000; ++i) {
     const EpipolarBlock space = make_space(random.direction(), random.logarithmic(0.1, 100.0));
     const double alpha = random.uniform(0.05, 3.0), phi = (k_pi_exactly - alpha) * random.uniform(0.02, 0.9);
-    const auto theta = static_cast<float>(random.uniform(-3.14, 3.14));
+    const Angle theta = single(random.uniform(-3.14, 3.14));
     const double t = exact(space.distance) * std::sin(phi) / std::sin(alpha + phi);
     const double r = exact(space.distance) * std::sin(alpha) / std::sin(alpha + phi);
-    const glm::dvec3 by_eye = t * glm::dvec3(view_ray_of(space, static_cast<float>(alpha), theta));
-    const glm::dvec3 by_light = exact(space.distance) * glm::dvec3(space.axis) +
-                                r * glm::dvec3(light_ray(space, theta, static_cast<float>(phi)));
+    const glm::dvec3 by_eye = t * glm::dvec3(view_ray_of(space, single(alpha), theta));
+    const glm::dvec3 by_light =
+        exact(space.distance) * glm::dvec3(space.axis) + r * glm::dvec3(light_ray(space, theta, single(phi)));
     EXPECT_LT(glm::length(by_eye - by_light), k_single * (t + r + exact(space.distance)));
   }
 }
@@ -262,8 +274,7 @@ TEST(Rays, AreUnitVectors) {
   Random random(7);
   for (int i = 0; i < 10000; ++i) {
     const EpipolarBlock space = make_space(random.direction(), 1.0);
-    const auto theta = static_cast<float>(random.uniform(-3.14, 3.14)),
-               angle = static_cast<float>(random.uniform(0, 3.14));
+    const Angle theta = single(random.uniform(-3.14, 3.14)), angle = single(random.uniform(0, 3.14));
     EXPECT_NEAR(glm::length(light_ray(space, theta, angle)), 1.0f, 3e-7f);
     EXPECT_NEAR(glm::length(view_ray_of(space, angle, theta)), 1.0f, 3e-7f);
   }
@@ -272,30 +283,28 @@ TEST(Rays, AreUnitVectors) {
 TEST(Rays, PointAlongTheAxisAtTheirEnds) {
   const EpipolarBlock space = make_space(glm::normalize(glm::dvec3(-1, 2, 0.5)), 1.0);
   for (int axis = 0; axis < 3; ++axis) {
-    EXPECT_NEAR(light_ray(space, 1.0f, 0.0f)[axis], -space.axis[axis], 1e-7f);
-    EXPECT_NEAR(light_ray(space, 1.0f, k_pi)[axis], space.axis[axis], 1e-6f);
-    EXPECT_NEAR(view_ray_of(space, 0.0f, 1.0f)[axis], space.axis[axis], 1e-7f);
-    EXPECT_NEAR(view_ray_of(space, k_pi, 1.0f)[axis], -space.axis[axis], 1e-6f);
+    EXPECT_NEAR(light_ray(space, Angle(1.0f), Angle(0.0f))[axis], -space.axis[axis], 1e-7f);
+    EXPECT_NEAR(light_ray(space, Angle(1.0f), k_half_turn)[axis], space.axis[axis], 1e-6f);
+    EXPECT_NEAR(view_ray_of(space, Angle(0.0f), Angle(1.0f))[axis], space.axis[axis], 1e-7f);
+    EXPECT_NEAR(view_ray_of(space, k_half_turn, Angle(1.0f))[axis], -space.axis[axis], 1e-6f);
   }
 }
 
 TEST(PathLength, IsTheDistanceFromLightToEyeWhereThePointIsOnTheSegment) {
   const EpipolarBlock space = make_space({0, 0, 1}, 7.0);
-  EXPECT_FLOAT_EQ(path_length(space, k_pi, 0.0f), 7.0f);   // α = φ = 0: between the two
-  EXPECT_FLOAT_EQ(path_length(space, 2.0f, 0.0f), 7.0f);   // φ = 0: at the eye
-  EXPECT_FLOAT_EQ(path_length(space, 1e-4f, 0.0f), 7.0f);  // at the eye, light behind
+  EXPECT_FLOAT_EQ(path_length(space, k_half_turn, Angle(0.0f)), 7.0f);   // α = φ = 0: between the two
+  EXPECT_FLOAT_EQ(path_length(space, Angle(2.0f), Angle(0.0f)), 7.0f);   // φ = 0: at the eye
+  EXPECT_FLOAT_EQ(path_length(space, Angle(1e-4f), Angle(0.0f)), 7.0f);  // at the eye, light behind
 }
 
 TEST(PathLength, EqualsTheSumOfBothDistances) {
   Random random(8);
   for (int i = 0; i < 100000; ++i) {
     const EpipolarBlock space = make_space({0, 0, 1}, random.logarithmic(1e-3, 1e3));
-    const auto complement =
-        static_cast<float>(random.uniform() < 0.5 ? random.logarithmic(1e-6, 3.1)
-                                                  : k_pi_exactly - random.logarithmic(1e-6, 1.0));
-    const auto phi =
-        static_cast<float>(exact(complement) * (random.uniform() < 0.5 ? random.uniform(0.0, 0.999)
-                                                                       : random.logarithmic(1e-6, 0.999)));
+    const Angle complement = single(random.uniform() < 0.5 ? random.logarithmic(1e-6, 3.1)
+                                                           : k_pi_exactly - random.logarithmic(1e-6, 1.0));
+    const Angle phi = single(exact(complement) * (random.uniform() < 0.5 ? random.uniform(0.0, 0.999)
+                                                                         : random.logarithmic(1e-6, 0.999)));
     const double D = exact(space.distance), alpha = k_pi_exactly - exact(complement);
     // The point, from the law of sines, in double.
     const double sine = std::sin(exact(complement) - exact(phi));  // sin(α + φ)
@@ -314,16 +323,17 @@ TEST(PathLength, EqualsTheSumOfBothDistances) {
 TEST(PathLength, IsHugeAndNeverNaNAtInfinity) {
   const EpipolarBlock space = make_space({0, 0, 1}, 3.0);
   for (float complement : {1e-6f, 0.1f, 1.0f, 3.0f, k_pi}) {
-    EXPECT_GE(path_length(space, complement, complement), 1e30f) << complement;
-    EXPECT_GE(path_length(space, complement, std::nextafter(complement, 4.0f)), 1e30f);
-    EXPECT_GE(path_length(space, complement, std::nextafter(complement, 0.0f)), 3.0f) << "no NaN";
+    const auto path = [&](float phi) { return path_length(space, Angle(complement), Angle(phi)); };
+    EXPECT_GE(path(complement), 1e30f) << complement;
+    EXPECT_GE(path(std::nextafter(complement, 4.0f)), 1e30f);
+    EXPECT_GE(path(std::nextafter(complement, 0.0f)), 3.0f) << "no NaN";
   }
-  EXPECT_GE(path_length(space, 0.0f, 0.0f), 1e30f);
+  EXPECT_GE(path_length(space, Angle(0.0f), Angle(0.0f)), 1e30f);
 }
 
 TEST(PathLength, GrowsAlongTheViewRay) {
   const EpipolarBlock space = make_space({0, 0, 1}, 1.0);
-  for (float complement : {0.01f, 1.0f, 2.0f, 3.1f}) {
+  for (const Angle complement : {Angle(0.01f), Angle(1.0f), Angle(2.0f), Angle(3.1f)}) {
     float last = 0.0f;
     for (int i = 0; i < 1000; ++i) {
       const float path = path_length(space, complement, complement * static_cast<float>(i) / 1000.0f);
@@ -334,22 +344,22 @@ TEST(PathLength, GrowsAlongTheViewRay) {
 }
 
 TEST(AngleOrder, RunsFromZeroToTwo) {
-  EXPECT_EQ(angle_order(0.0f, 1.0f), 0.0f);
-  EXPECT_EQ(angle_order(1.0f, 0.0f), 1.0f);
-  EXPECT_EQ(angle_order(0.0f, -1.0f), 2.0f);
-  EXPECT_EQ(angle_order(0.0f, 0.0f), 0.0f);
-  EXPECT_EQ(angle_from_order(0.0f), 0.0f);
-  EXPECT_FLOAT_EQ(angle_from_order(1.0f), 0.5f * k_pi);
-  EXPECT_FLOAT_EQ(angle_from_order(2.0f), k_pi);
+  EXPECT_EQ(angle_order(0.0f, 1.0f), Order(0.0f));
+  EXPECT_EQ(angle_order(1.0f, 0.0f), Order(1.0f));
+  EXPECT_EQ(angle_order(0.0f, -1.0f), Order(2.0f));
+  EXPECT_EQ(angle_order(0.0f, 0.0f), Order(0.0f));
+  EXPECT_EQ(angle_from_order(Order(0.0f)), Angle(0.0f));
+  EXPECT_FLOAT_EQ(number(angle_from_order(Order(1.0f))), 0.5f * k_pi);
+  EXPECT_FLOAT_EQ(number(angle_from_order(Order(2.0f))), k_pi);
 }
 
 TEST(AngleOrder, GrowsWithTheAngleWhateverTheLength) {
   Random random(9);
-  float last = 0.0f;
+  Order last(0.0f);
   for (int i = 1; i <= 20000; ++i) {
     const double angle = k_pi_exactly * i / 20000.0;
     const double length = random.logarithmic(1e-6, 1e6);
-    const float order = angle_order(static_cast<float>(std::abs(length * std::sin(angle))),
+    const Order order = angle_order(static_cast<float>(std::abs(length * std::sin(angle))),
                                     static_cast<float>(length * std::cos(angle)));
     EXPECT_GT(order, last) << angle;
     last = order;
