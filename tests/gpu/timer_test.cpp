@@ -32,10 +32,14 @@ TEST_P(StageTimerWith, GivesAnInnerStageItsTimeAndTheOuterTheRest) {
   const double total =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   ASSERT_EQ(stages.size(), 2u);
-  // A busy machine may stretch a sleep, but not shorten it; 1 ms is what two clocks may differ.
-  EXPECT_GE(stages.at("inner"), 59.0);
-  EXPECT_GE(stages.at("outer"), 19.0);
-  EXPECT_LE(stages.at("inner") + stages.at("outer"), total + 1.0) << "nothing is counted twice";
+  // A busy machine may stretch a sleep, but not shorten it. The GPU's clock is read when its queue comes to
+  // it, which on a software driver, a thread among others, can be late; otherwise 1 ms is what two clocks may
+  // differ.
+  const double late = GetParam() == StageClock::gpu ? 15.0 : 1.0;
+  EXPECT_GE(stages.at("inner"), 60.0 - late);
+  EXPECT_GE(stages.at("outer"), 20.0 - late);
+  EXPECT_LT(stages.at("outer"), stages.at("inner"));
+  EXPECT_LE(stages.at("inner") + stages.at("outer"), total + late) << "nothing is counted twice";
 }
 
 TEST_P(StageTimerWith, CountsWorkOfTheGpu) {
