@@ -99,7 +99,8 @@ std::span<const OptionLine> common_options() {
     lines.push_back({"reference-samples", "N",
                      "of the reference: uniform steps in the light angle that look for changes of visibility "
                      "(default: 512)"});
-    lines.push_back({"cache", "DIR", "keep the reference's images there, and look there before tracing them"});
+    lines.push_back(
+        {"cache", "DIR", "keep the reference's images there, and look there before tracing them"});
     for (const quality::CommonOptionText& text : quality::common_option_texts())
       lines.push_back({text.name, "VALUE", text.help});
     return lines;

@@ -10,8 +10,8 @@ namespace {
 gpu::Pipeline make_program(const VolumeOptions& options) {
   const auto grid = resolution_constants(options.resolution);
   const bool whole_voxels = options.populate == Populate::conservative;
-  return gpu::Pipeline::compute(k_surface_lookup_comp,
-                               std::array{grid[0], grid[1], grid[2], gpu::Constant(3, whole_voxels ? 1 : 0)});
+  return gpu::Pipeline::compute(
+      k_surface_lookup_comp, std::array{grid[0], grid[1], grid[2], gpu::Constant(3, whole_voxels ? 1 : 0)});
 }
 
 }  // namespace

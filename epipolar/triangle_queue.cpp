@@ -22,7 +22,9 @@ gpu::Pipeline load(const Resolution& resolution, std::span<const std::uint32_t> 
 }  // namespace
 
 TriangleQueue::TriangleQueue(const Resolution& resolution, std::span<const std::uint32_t> spirv)
-    : all_(load(resolution, spirv, 0)), many_(load(resolution, spirv, 1)), most_(load(resolution, spirv, 2)) {}
+    : all_(load(resolution, spirv, 0)),
+      many_(load(resolution, spirv, 1)),
+      most_(load(resolution, spirv, 2)) {}
 
 void TriangleQueue::set_window(const Window& window) {
   for (const gpu::Pipeline* program : {&all_, &many_, &most_}) epipolar::set_window(*program, window);

@@ -67,7 +67,6 @@ std::string results_table(const Comparison& comparison);
 /// A relative airlight error in percent; one that is not above the truth's own uncertainty reads "< that".
 std::string error_text(double rrmse, double self_error);
 
-
 /// Every choice of a view under the name of the option that makes it.
 std::map<std::string, std::string> view_options(const scene::View& view);
 

@@ -532,8 +532,7 @@ TEST_F(ImportGltf, RefusesCamerasThatSeeNothing) {
   expect_error(with_camera(k_perspective, {{"scale", {1, 1, 0}}}), "node 1");
   json camera = k_perspective;
   camera["perspective"]["yfov"] = 4.0;
-  expect_error(with_camera(camera, {{"name", "eye"}}),
-               "node 1 'eye': camera 'eye', fov: ");
+  expect_error(with_camera(camera, {{"name", "eye"}}), "node 1 'eye': camera 'eye', fov: ");
   json document = with_camera(k_perspective);
   document["cameras"] = json::array();
   expect_error(document, "node 1: camera 0 does not exist");
