@@ -25,12 +25,12 @@ void require_accuracy(const quality::Comparison& comparison, double limit) {
   }
   if (!worst) return;
   // What the reference itself cannot vouch for is not claimed.
-  const double error = std::max(worst->errors.airlight.rrmse, comparison.truth.self_error);
+  const double error = std::max(worst->errors.airlight.rrmse, comparison.truth.bound);
   if (error <= limit) return;
   throw Error(
       ExitCode::threshold_missed, fmt::format("--max-error {}", limit),
-      fmt::format("{} × {} is off by {:.4g} (rrmse; the reference's own uncertainty is {:.2g})",
-                  worst->volume, worst->surface, worst->errors.airlight.rrmse, comparison.truth.self_error),
+      fmt::format("{} × {} is off by {:.4g} (rrmse; the reference's own is below {:.2g})", worst->volume,
+                  worst->surface, worst->errors.airlight.rrmse, comparison.truth.bound),
       "give the method more cells or samples, or allow more");
 }
 
@@ -40,7 +40,6 @@ void compare(const Options& options) {
   // Everything that can be wrong with the command is found before the driver is woken.
   auto volumes = parse_volumes(options, "vsv,vsv:integral=riemann,reference-march");
   auto surfaces = parse_surfaces(options);
-  const int samples = reference_samples(options);
   const int shadow_map = shadow_map_size(options);
   const int frames = scene::parse_count("--frames", options.get("frames").value_or("5"));
   std::optional<double> limit;
@@ -73,7 +72,6 @@ void compare(const Options& options) {
                                             .volumes = volumes,
                                             .surfaces = surfaces,
                                             .shadow_map_size = shadow_map,
-                                            .reference_samples = samples,
                                             .frames = frames,
                                             .exposure = subject.exposure,
                                             .directory = folder,

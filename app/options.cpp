@@ -96,9 +96,6 @@ std::span<const OptionLine> common_options() {
     for (const scene::FieldInfo* field : scene::every_field())
       lines.push_back({field->name, field->placeholder, field->help()});
     lines.push_back({"shadow-map", "N", "side of a face of the shadow map [texels] (default: 2048)"});
-    lines.push_back({"reference-samples", "N",
-                     "of the reference: uniform steps in the light angle that look for changes of visibility "
-                     "(default: 512)"});
     lines.push_back(
         {"cache", "DIR", "keep the reference's images there, and look there before tracing them"});
     for (const quality::CommonOptionText& text : quality::common_option_texts())
@@ -139,13 +136,8 @@ std::vector<quality::CommonOption> common_method_options(const Options& options)
   };
   for (const quality::CommonOptionText& text : quality::common_option_texts())
     add(std::string(text.name), std::string(text.name));
-  add("reference-samples", "samples");
   for (const quality::CommonOption& option : common) quality::require_valid(option);
   return common;
-}
-
-int reference_samples(const Options& options) {
-  return scene::parse_count("--reference-samples", options.get("reference-samples").value_or("512"));
 }
 
 std::vector<quality::VolumeChoice> parse_volumes(const Options& options, std::string_view usual) {

@@ -54,9 +54,6 @@ Subject make_subject(const Options& options);
 /// The options that are meant for every method that has them. @throws scene::Error (usage)
 std::vector<quality::CommonOption> common_method_options(const Options& options);
 
-/// --reference-samples
-int reference_samples(const Options& options);
-
 /// The methods of --volume or --surface, or the usual ones.
 std::vector<quality::VolumeChoice> parse_volumes(const Options& options, std::string_view usual);
 std::vector<quality::SurfaceChoice> parse_surfaces(const Options& options);

@@ -46,7 +46,7 @@ std::map<std::string, std::string> metadata_of(const CompareRequest& request, co
 /// @returns the exposure of all previews
 Exposure write_truth(const CompareRequest& request, Measurer& measurer, const Truth& truth) {
   // The colour of surfaces is the compositor's, the rest the rays'.
-  const std::string volume = fmt::format("reference:samples={}", truth.figures.samples);
+  const std::string volume = "reference";
   frame::FrameImages images = measurer.render(parse_volumes(volume)[0], parse_surfaces("reference")[0]);
   images.distance = truth.distance;
   images.visibility = truth.visibility;
@@ -54,7 +54,7 @@ Exposure write_truth(const CompareRequest& request, Measurer& measurer, const Tr
                                              : Exposure{automatic_exposure(images.radiance), true};
   auto metadata =
       metadata_of(request, volume, "reference", command_of(request, "reference", volume, "reference"));
-  metadata["airlight.self-error"] = fmt::format("{}", truth.figures.self_error);
+  metadata["airlight.bound"] = fmt::format("{}", truth.figures.bound);
   write_exr(request.directory / "reference.exr", exr_image(images, metadata));
   write_png(request.directory / "reference.png", images.radiance, images.size, exposure.value);
   return exposure;
@@ -111,7 +111,7 @@ Comparison compare(gpu::Context& context, const CompareRequest& request) {
   Measurer measurer(context, request.scene.geometry, request.view, request.shadow_map_size, request.progress,
                     request.cache);
   measurer.try_out(request.volumes, request.surfaces);
-  const Truth truth = trace_truth(measurer.reference(), request.view, request.reference_samples);
+  const Truth truth = trace_truth(measurer.reference(), request.view);
   comparison.truth = truth.figures;
   comparison.exposure = write_truth(request, measurer, truth);
 

@@ -17,7 +17,6 @@ struct CompareRequest {
   std::vector<VolumeChoice> volumes;
   std::vector<SurfaceChoice> surfaces;
   int shadow_map_size;              ///< side of a cube face [texels]
-  int reference_samples;            ///< of the truth
   int frames;                       ///< timed a run, after warm-up
   std::optional<float> exposure;    ///< of the PNG previews; automatic without
   std::filesystem::path directory;  ///< exists; gets the images
@@ -27,7 +26,7 @@ struct CompareRequest {
   Progress progress;                ///< may be empty
 };
 
-/// Measures every volume method with every surface method, judges them by the converged reference, and writes
+/// Measures every volume method with every surface method, judges them by the reference, and writes
 /// the images: reference.exr and .png, and for each run NAME.exr, NAME.png and NAME_error.png
 /// (`error_colours`); where asked for, the debug images of each volume method, as NAME_IMAGE.exr, channel Y,
 /// and NAME_IMAGE.png, where the largest value is white.

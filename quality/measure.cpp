@@ -133,6 +133,7 @@ Measurer::Measurement Measurer::measure(const VolumeChoice& volume, const Surfac
   cost.frame_ms = median(times);
   cost.frames = static_cast<int>(times.size());
   cost.rays = staged[0].work.airlight_rays;
+  cost.self_error = staged[0].work.self_error;
   if (cost.rays > 0) cost.mrays_per_s = static_cast<double>(cost.rays) / (1e3 * median(tracing));
   cost.bytes = frame_.bytes();
   for (const auto& [name, bytes] : airlight->bytes()) cost.bytes[name] += bytes;

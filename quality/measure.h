@@ -17,6 +17,7 @@ struct Cost {
   std::map<std::string, std::int64_t> bytes;
   std::uint64_t rays = 0;    ///< 0 for a method that traces none
   double mrays_per_s = 0.0;  ///< 0 for a method that traces none
+  double self_error = 0.0;   ///< reference::AirlightImage::self_error, of several lights the largest
 };
 
 /// Renders frames of one view by pairs of methods in turn, over one copy of the scene on the GPU, and times

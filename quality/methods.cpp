@@ -20,10 +20,8 @@ using scene::split;
 
 std::span<const VolumeMethod> volume_methods() {
   static const std::vector<VolumeMethod> methods = {
-      frame::no_airlight_method(),
-      media::vsv_method(),
-      reference_method(),
-      reference_march_method(),
+      frame::no_airlight_method(), media::vsv_method(),      reference_method(),
+      reference_sampled_method(),  reference_march_method(),
   };
   return methods;
 }

@@ -81,7 +81,7 @@ frames in the next column, after one frame of warm-up. Where the first frame too
 <dt>same-surface rrmse [%], left out [pixels]</dt><dd>The same without the pixels where rasterisation, which snaps corners to 1/256
 pixel, shows another surface than the reference's ray hits, and how many those are.</dd>
 <dt>rrmse [%]</dt><dd>sqrt(mean((x − r)²)) / mean(r), over all channels of all pixels of the airlight: x this run's, r the reference's.
-“&lt;” marks an error that is not above the reference's own uncertainty.</dd>
+“&lt;” marks an error that is not above the bound of the reference's own error.</dd>
 <dt>bias [%]</dt><dd>mean(x) / mean(r) − 1.</dd>
 <dt>mae, p99, max [%]</dt><dd>Mean, 99th percentile and largest value of |x − r|, divided by mean(r).</dd>
 <dt>relmse</dt><dd>mean((x − r)² / (r² + ε)), ε = 0.01 · mean(r)²; no unit.</dd>
@@ -104,8 +104,8 @@ std::string results_rows(const Comparison& comparison) {
             cell(fmt::format("{}", run.cost.frames)) +
             cell(run.march_ratio > 0.0 ? fmt::format("{:.2f}", run.march_ratio) : "–") +
             cell(run.cost.rays > 0 ? fmt::format("{:.2f}", run.cost.mrays_per_s) : "–") +
-            cell(error_text(error.rrmse, comparison.truth.self_error)) +
-            cell(error_text(run.errors.same_surface.rrmse, comparison.truth.self_error)) +
+            cell(error_text(error.rrmse, comparison.truth.bound)) +
+            cell(error_text(run.errors.same_surface.rrmse, comparison.truth.bound)) +
             cell(fmt::format("{}", run.errors.same_surface.left_out_pixels)) +
             cell(percent(error.bias, "+")) + cell(percent(error.mae)) + cell(percent(error.p99)) +
             cell(percent(error.max)) + cell(fmt::format("{:.3g}", error.relmse)) +
@@ -189,15 +189,15 @@ std::string report_html(const Comparison& comparison) {
   html += fmt::format(
       "<dl><dt>scene</dt><dd>{}, {} triangles, {} of zero area dropped</dd>\n{}"
       "<dt>device</dt><dd>{}, OpenGL {}, {} CPU cores; airlight {}</dd>\n"
-      "<dt>reference</dt><dd>Embree ray tracing, {} samples a view ray, every change of visibility bisected: "
-      "{:.1f} million rays in "
-      "{:.0f} ms; own uncertainty {:.3g} % rrmse (against half as many samples); mean airlight {:.4g} W/(m² "
+      "<dt>reference</dt><dd>exact: the intervals of every view ray that triangles hide, {:.1f} triangles "
+      "and "
+      "{:.1f} lit runs a ray on average, in {:.0f} ms; own rrmse below {:.2g} %; mean airlight {:.4g} W/(m² "
       "sr)</dd>\n"
       "<dt>exposure</dt><dd>{} of the PNG images{}; the EXR images hold radiance</dd>\n</dl>\n",
       escape(comparison.scene), comparison.triangles, comparison.report.degenerate_triangles, fields,
       escape(comparison.device.renderer), escape(comparison.device.version), comparison.cores, version(),
-      truth.samples, static_cast<double>(truth.rays) * 1e-6, truth.ms, 100.0 * truth.self_error,
-      truth.mean_airlight, comparison.exposure.value,
+      truth.shadows_per_pixel, truth.lit_runs_per_pixel, truth.ms, 100.0 * truth.bound, truth.mean_airlight,
+      comparison.exposure.value,
       comparison.exposure.is_automatic
           ? ", chosen so that the 95th percentile of the reference maps to 0.8 of white, linear"
           : "");

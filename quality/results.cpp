@@ -86,6 +86,7 @@ Json run_json(const Run& run) {
     json["rays"] = run.cost.rays;
     json["mrays_per_s"] = run.cost.mrays_per_s;
   }
+  if (run.cost.self_error > 0.0) json["self_error"] = run.cost.self_error;
   if (run.march_ratio > 0.0) json["march_ratio"] = run.march_ratio;
   for (const Run::DebugImage& image : run.debug_images)
     json["debug_images"].push_back(
@@ -126,10 +127,10 @@ std::map<std::string, std::string> view_options(const scene::View& view) {
   return options;
 }
 
-std::string error_text(double rrmse, double self_error) {
+std::string error_text(double rrmse, double bound) {
   if (!std::isfinite(rrmse)) return "inf";
-  if (rrmse == 0.0 && self_error == 0.0) return "0";
-  if (rrmse <= self_error) return fmt::format("< {:.3g}", 100.0 * self_error);
+  if (rrmse == 0.0 && bound == 0.0) return "0";
+  if (rrmse <= bound) return fmt::format("< {:.3g}", 100.0 * bound);
   return fmt::format("{:.3g}", 100.0 * rrmse);
 }
 
@@ -152,10 +153,10 @@ std::string results_json(const Comparison& comparison) {
         {"version", comparison.device.version},
         {"cores", comparison.cores}}},
       {"reference",
-       {{"samples", comparison.truth.samples},
-        {"self_error", number(comparison.truth.self_error)},
+       {{"bound", number(comparison.truth.bound)},
         {"ms", comparison.truth.ms},
-        {"rays", comparison.truth.rays},
+        {"shadows_per_pixel", comparison.truth.shadows_per_pixel},
+        {"lit_runs_per_pixel", comparison.truth.lit_runs_per_pixel},
         {"mean_airlight", comparison.truth.mean_airlight}}},
       {"runs", runs}};
   // File names need not be UTF-8; JSON must be.
@@ -167,9 +168,10 @@ std::string results_table(const Comparison& comparison) {
   std::string text =
       fmt::format("{}, {}x{} pixels, {} triangles; {}, {} cores\n", comparison.scene, comparison.view.size.x,
                   comparison.view.size.y, comparison.triangles, comparison.device.renderer, comparison.cores);
-  text +=
-      fmt::format("reference: {} samples, {:.1f} Mrays in {:.0f} ms, own uncertainty {:.3g} % rrmse\n\n",
-                  truth.samples, static_cast<double>(truth.rays) * 1e-6, truth.ms, 100.0 * truth.self_error);
+  text += fmt::format(
+      "reference: {:.1f} shadows and {:.1f} lit runs a view ray in {:.0f} ms, own rrmse below "
+      "{:.2g} %\n\n",
+      truth.shadows_per_pixel, truth.lit_runs_per_pixel, truth.ms, 100.0 * truth.bound);
 
   // What each run cost and how far off it is.
   std::vector<std::vector<std::string>> rows = {{"volume", "surface", "frame ms", "march/frame", "Mrays/s",
@@ -180,9 +182,9 @@ std::string results_table(const Comparison& comparison) {
     rows.push_back({run.volume, run.surface, fmt::format("{:.2f}", run.cost.frame_ms),
                     run.march_ratio > 0.0 ? fmt::format("{:.2f}", run.march_ratio) : "-",
                     run.cost.rays > 0 ? fmt::format("{:.2f}", run.cost.mrays_per_s) : "-",
-                    error_text(error.rrmse, truth.self_error), fmt::format("{:+.3f}", 100.0 * error.bias),
+                    error_text(error.rrmse, truth.bound), fmt::format("{:+.3f}", 100.0 * error.bias),
                     fmt::format("{:.3g}", 100.0 * error.p99),
-                    error_text(run.errors.same_surface.rrmse, truth.self_error),
+                    error_text(run.errors.same_surface.rrmse, truth.bound),
                     fmt::format("{}", run.errors.same_surface.left_out_pixels),
                     fmt::format("{}", run.errors.surface.wrong_pixels)});
   }
@@ -213,7 +215,8 @@ std::string results_table(const Comparison& comparison) {
       "airlight.\n"
       "rrmse, bias, p99: airlight against the reference, in % of its mean ({:.4g} W/(m2 sr)). < marks what "
       "is not\n"
-      "above the reference's own uncertainty. same-surface: without the pixels where rasterisation shows "
+      "above the bound of the reference's own error. same-surface: without the pixels where rasterisation "
+      "shows "
       "another\n"
       "surface than the ray hits (left out). wrong px: surface pixels lit where the reference is dark or the "
       "other\n"

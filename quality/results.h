@@ -64,8 +64,8 @@ std::string results_json(const Comparison& comparison);
 /// The comparison as a table for a terminal, each figure with its unit and what it was compared with.
 std::string results_table(const Comparison& comparison);
 
-/// A relative airlight error in percent; one that is not above the truth's own uncertainty reads "< that".
-std::string error_text(double rrmse, double self_error);
+/// A relative airlight error in percent; one that is not above the truth's own reads "< that".
+std::string error_text(double rrmse, double bound);
 
 /// Every choice of a view under the name of the option that makes it.
 std::map<std::string, std::string> view_options(const scene::View& view);

@@ -1,5 +1,6 @@
 #include "quality/traced.h"
 
+#include <algorithm>
 #include <chrono>
 
 namespace airlight::quality {
@@ -18,25 +19,46 @@ void upload(const std::vector<glm::vec3>& image, const gpu::Texture& texture) {
   texture.write(rgba.data());
 }
 
-struct ConvergedOptions {
+struct ExactOptions {
+  int refine = 1;
+};
+
+class ExactAirlight : public frame::Airlight, public Traced {
+ public:
+  explicit ExactAirlight(const ExactOptions& options) : options_(options) {}
+  void borrow(SharedReference& shared) override {
+    shared_ = &shared;
+    shared.prepare_truth(options_.refine);
+  }
+  void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override {
+    inputs.timer.time(
+        "integrate", [&] { upload(shared_->exact(inputs.light_index, options_.refine).radiance, radiance); });
+  }
+
+ private:
+  ExactOptions options_;
+  SharedReference* shared_ = nullptr;
+};
+
+struct SampledOptions {
   int samples = 512;
 };
 
-class ConvergedAirlight : public frame::Airlight, public Traced {
+class SampledAirlight : public frame::Airlight, public Traced {
  public:
-  explicit ConvergedAirlight(const ConvergedOptions& options) : options_(options) {}
+  explicit SampledAirlight(const SampledOptions& options) : options_(options) {}
   void borrow(SharedReference& shared) override {
     shared_ = &shared;
-    shared.prepare_truth(options_.samples);
+    shared.prepare();
   }
   void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override {
     inputs.timer.time("integrate", [&] {
-      upload(shared_->converged(inputs.light_index, options_.samples).radiance, radiance);
+      upload(shared_->sampled(inputs.light_index, options_.samples).radiance, radiance);
     });
   }
 
  private:
-  ConvergedOptions options_;
+  SampledOptions options_;
   SharedReference* shared_ = nullptr;
 };
 
@@ -83,15 +105,29 @@ constexpr frame::Traits k_truth = {.runs_on_gpu = false, .is_truth = true};
 }  // namespace
 
 frame::AirlightMethod reference_method() {
-  return frame::describe<frame::Airlight, ConvergedOptions>(
-      "reference", "converged ray tracing on the CPU (Embree): the truth", k_truth,
+  return frame::describe<frame::Airlight, ExactOptions>(
+      "reference", "exact intervals of shadow on the CPU, nothing sampled: the truth", k_truth,
+      {frame::count_option({.name = "refine",
+                            .meaning = "parts that each panel of the quadrature is cut into",
+                            .quality = "changes nothing by more than the stated bound",
+                            .cost = "time of the quadrature"},
+                           frame::Counts{.most = 64}, &ExactOptions::refine)},
+      [](const gpu::Context&, const ExactOptions& options) {
+        return std::make_unique<ExactAirlight>(options);
+      });
+}
+
+frame::AirlightMethod reference_sampled_method() {
+  return frame::describe<frame::Airlight, SampledOptions>(
+      "reference-sampled", "converged ray tracing on the CPU (Embree), every change of visibility bisected",
+      k_truth,
       {frame::count_option({.name = "samples",
                             .meaning = "uniform steps in the light angle that look for changes of visibility",
                             .quality = "shadows and light that lie wholly between two are missed",
                             .cost = "rays"},
-                           frame::Counts{.least = 2}, &ConvergedOptions::samples)},
-      [](const gpu::Context&, const ConvergedOptions& options) {
-        return std::make_unique<ConvergedAirlight>(options);
+                           frame::Counts{.least = 2}, &SampledOptions::samples)},
+      [](const gpu::Context&, const SampledOptions& options) {
+        return std::make_unique<SampledAirlight>(options);
       });
 }
 
@@ -141,9 +177,9 @@ void SharedReference::prepare() {
   for (std::size_t light = 0; light < lights_.size(); ++light) rays(light);
 }
 
-void SharedReference::prepare_truth(int samples) {
+void SharedReference::prepare_truth(int refinement) {
   for (std::size_t light = 0; light < lights_.size(); ++light) {
-    if (!load_converged(light, samples) || !load_surfaces(light)) rays(light);
+    if (!load_exact(light, refinement) || !load_surfaces(light)) rays(light);
   }
 }
 
@@ -162,12 +198,12 @@ bool SharedReference::load_surfaces(std::size_t light) {
   return true;
 }
 
-bool SharedReference::load_converged(std::size_t light, int samples) {
+bool SharedReference::load_exact(std::size_t light, int refinement) {
   OfLight& of_light = lights_[light];
-  if (of_light.converged.contains(samples)) return true;
-  auto kept = cache_ ? cache_->load_converged(light, samples) : std::nullopt;
+  if (of_light.exact.contains(refinement)) return true;
+  auto kept = cache_ ? cache_->load_airlight(light, refinement) : std::nullopt;
   if (!kept) return false;
-  of_light.converged.emplace(samples, std::move(*kept));
+  of_light.exact.emplace(refinement, std::move(*kept));
   return true;
 }
 
@@ -185,25 +221,35 @@ const reference::SurfaceImage& SharedReference::surfaces(std::size_t light) {
   return *of_light.surfaces;
 }
 
-const reference::AirlightImage& SharedReference::converged(std::size_t light, int samples) {
-  OfLight& of_light = lights_[light];
-  const bool is_kept = load_converged(light, samples);
-  if (!is_kept) {
-    const auto& made =
-        of_light.converged.emplace(samples, rays(light).converged(samples, report("reference, airlight")));
-    if (cache_) cache_->save_converged(light, samples, made.first->second);
-  }
-  const reference::AirlightImage& image = of_light.converged.at(samples);
+void SharedReference::count(const reference::AirlightImage& image) {
   work_.airlight_rays += image.rays;
   work_.airlight_ms += image.ms;
+  work_.self_error = std::max(work_.self_error, image.self_error);
+}
+
+const reference::AirlightImage& SharedReference::exact(std::size_t light, int refinement) {
+  OfLight& of_light = lights_[light];
+  const bool is_kept = load_exact(light, refinement);
+  if (!is_kept) {
+    const auto& made =
+        of_light.exact.emplace(refinement, rays(light).exact(refinement, report("reference, airlight")));
+    if (cache_) cache_->save_airlight(light, refinement, made.first->second);
+  }
+  const reference::AirlightImage& image = of_light.exact.at(refinement);
+  count(image);
   if (is_kept) work_.kept_airlight_ms += image.ms;
+  return image;
+}
+
+reference::AirlightImage SharedReference::sampled(std::size_t light, int samples) {
+  reference::AirlightImage image = rays(light).sampled(samples, report("reference-sampled"));
+  count(image);
   return image;
 }
 
 reference::AirlightImage SharedReference::march(std::size_t light, int steps, reference::RayMode mode) {
   reference::AirlightImage image = rays(light).march(steps, mode, report("reference-march"));
-  work_.airlight_rays += image.rays;
-  work_.airlight_ms += image.ms;
+  count(image);
   return image;
 }
 

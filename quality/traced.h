@@ -30,21 +30,24 @@ class SharedReference {
   /// Does what goes before the first ray, unless it is done, so that no frame is charged for it.
   void prepare();
 
-  /// As `prepare`, where the images of `converged` and `surfaces` are not kept from an earlier run.
-  void prepare_truth(int samples);
+  /// As `prepare`, where the images of `exact` and `surfaces` are not kept from an earlier run.
+  void prepare_truth(int refinement);
 
   // Of one of the view's lights:
   const reference::SurfaceImage& surfaces(std::size_t light);
-  const reference::AirlightImage& converged(std::size_t light, int samples);
-  reference::AirlightImage march(std::size_t light, int steps, reference::RayMode rays);  ///< traced anew
+  const reference::AirlightImage& exact(std::size_t light, int refinement);
+  // Traced anew:
+  reference::AirlightImage sampled(std::size_t light, int samples);
+  reference::AirlightImage march(std::size_t light, int steps, reference::RayMode rays);
 
   /// What was asked for since the last `take_work`.
   struct Work {
     std::uint64_t airlight_rays = 0;  ///< occlusion rays for airlight
-    double airlight_ms = 0.0;         ///< time of tracing those
+    double airlight_ms = 0.0;         ///< time of tracing airlight
     double kept_airlight_ms =
         0.0;  ///< the part of `airlight_ms` not spent now, because the image had been kept
     double kept_surface_ms = 0.0;  ///< the same for surfaces
+    double self_error = 0.0;       ///< the largest of reference::AirlightImage::self_error
   };
   Work take_work() { return std::exchange(work_, {}); }
 
@@ -54,12 +57,13 @@ class SharedReference {
     std::optional<reference::Reference> rays;
     std::optional<reference::SurfaceImage> surfaces;
     double surfaces_ms = 0.0;
-    std::map<int, reference::AirlightImage> converged;  ///< by number of samples
+    std::map<int, reference::AirlightImage> exact;  ///< by refinement
   };
 
   const reference::Reference& rays(std::size_t light);
   bool load_surfaces(std::size_t light);
-  bool load_converged(std::size_t light, int samples);
+  bool load_exact(std::size_t light, int refinement);
+  void count(const reference::AirlightImage& image);
   reference::Progress report(const std::string& what) const;
 
   const scene::Geometry& geometry_;
@@ -77,8 +81,11 @@ class Traced {
   virtual void borrow(SharedReference& shared) = 0;
 };
 
-/// `reference`: converged ray tracing.
+/// `reference`: the truth, without sampling.
 frame::AirlightMethod reference_method();
+
+/// `reference-sampled`: converged ray tracing.
+frame::AirlightMethod reference_sampled_method();
 
 /// `reference-march`: a shadow ray at every step.
 frame::AirlightMethod reference_march_method();

@@ -14,13 +14,12 @@ double mean(const std::vector<glm::vec3>& image) {
 
 }  // namespace
 
-Truth trace_truth(SharedReference& reference, const scene::View& view, int samples) {
+Truth trace_truth(SharedReference& reference, const scene::View& view) {
   Truth truth;
   TruthFigures& figures = truth.figures;
-  figures.samples = samples;
   double error = 0.0;  // rmse, in the unit of the image
   for (std::size_t light = 0; light < view.lights.size(); ++light) {
-    const reference::AirlightImage& airlight = reference.converged(light, samples);
+    const reference::AirlightImage& airlight = reference.exact(light, 1);
     const reference::SurfaceImage& surfaces = reference.surfaces(light);
     if (light == 0) {
       truth.airlight = airlight.radiance;
@@ -29,12 +28,13 @@ Truth trace_truth(SharedReference& reference, const scene::View& view, int sampl
       for (std::size_t i = 0; i < truth.airlight.size(); ++i) truth.airlight[i] += airlight.radiance[i];
     }
     truth.visibility.push_back(surfaces.visibility);
-    error += airlight.self_error * mean(airlight.radiance);  // a sum's rmse is at most the sum of rmse
+    error += airlight.bound * mean(airlight.radiance);  // a sum's rmse is at most the sum of rmse
     figures.ms += airlight.ms;
-    figures.rays += airlight.rays;
+    figures.shadows_per_pixel += airlight.shadows_per_pixel;
+    figures.lit_runs_per_pixel += airlight.lit_runs_per_pixel;
   }
   figures.mean_airlight = mean(truth.airlight);
-  figures.self_error = figures.mean_airlight > 0.0 ? error / figures.mean_airlight : 0.0;
+  figures.bound = figures.mean_airlight > 0.0 ? error / figures.mean_airlight : 0.0;
   return truth;
 }
 

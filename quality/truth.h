@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -12,14 +11,14 @@ namespace airlight::quality {
 
 /// What there is to say of a truth.
 struct TruthFigures {
-  int samples = 0;
-  double self_error = 0.0;  ///< rrmse against half as many samples; of several lights, at most this
-  double ms = 0.0;          ///< of tracing and integrating
-  std::uint64_t rays = 0;
+  double bound = 0.0;              ///< of its own rrmse
+  double ms = 0.0;                 ///< of tracing and integrating
+  double shadows_per_pixel = 0.0;  ///< triangles that hide a part of a view ray; all lights together
+  double lit_runs_per_pixel = 0.0;
   double mean_airlight = 0.0;  ///< over pixels and channels [W/(m² sr)]
 };
 
-/// What a view's images are judged by: the converged reference, all lights together.
+/// What a view's images are judged by: the exact reference, all lights together.
 struct Truth {
   std::vector<glm::vec3> airlight;             ///< RGB [W/(m² sr)]
   std::vector<float> distance;                 ///< along the view ray [m]; 0 where nothing is hit
@@ -27,6 +26,6 @@ struct Truth {
   TruthFigures figures;
 };
 
-Truth trace_truth(SharedReference& reference, const scene::View& view, int samples);
+Truth trace_truth(SharedReference& reference, const scene::View& view);
 
 }  // namespace airlight::quality

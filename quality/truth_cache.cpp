@@ -142,8 +142,8 @@ void TruthCache::save_surfaces(std::size_t light, const Surfaces& surfaces) cons
   save(key(light, "surfaces"), std::move(image));
 }
 
-std::optional<reference::AirlightImage> TruthCache::load_converged(std::size_t light, int samples) const {
-  const std::optional<Image> image = load(key(light, fmt::format("airlight by {} samples", samples)));
+std::optional<reference::AirlightImage> TruthCache::load_airlight(std::size_t light, int refinement) const {
+  const std::optional<Image> image = load(key(light, fmt::format("airlight, refined {} times", refinement)));
   if (!image) return {};
   reference::AirlightImage airlight;
   airlight.radiance.resize(image->channels.at("R").size());
@@ -151,23 +151,25 @@ std::optional<reference::AirlightImage> TruthCache::load_converged(std::size_t l
     const std::vector<float>& values = image->channels.at(k_channels[static_cast<std::size_t>(channel)]);
     for (std::size_t i = 0; i < values.size(); ++i) airlight.radiance[i][channel] = values[i];
   }
-  airlight.rays = static_cast<std::uint64_t>(number(*image, "airlight.rays"));
   airlight.ms = number(*image, "airlight.ms");
-  airlight.self_error = number(*image, "airlight.self-error");
+  airlight.bound = number(*image, "airlight.bound");
+  airlight.shadows_per_pixel = number(*image, "airlight.shadows-per-pixel");
+  airlight.lit_runs_per_pixel = number(*image, "airlight.lit-runs-per-pixel");
   return airlight;
 }
 
-void TruthCache::save_converged(std::size_t light, int samples,
-                                const reference::AirlightImage& airlight) const {
+void TruthCache::save_airlight(std::size_t light, int refinement,
+                               const reference::AirlightImage& airlight) const {
   Image image;
   for (int channel = 0; channel < 3; ++channel) {
     std::vector<float>& values = image.channels[k_channels[static_cast<std::size_t>(channel)]];
     for (const glm::vec3& radiance : airlight.radiance) values.push_back(radiance[channel]);
   }
-  image.metadata["airlight.rays"] = fmt::format("{}", airlight.rays);
   image.metadata["airlight.ms"] = fmt::format("{}", airlight.ms);
-  image.metadata["airlight.self-error"] = fmt::format("{}", airlight.self_error);
-  save(key(light, fmt::format("airlight by {} samples", samples)), std::move(image));
+  image.metadata["airlight.bound"] = fmt::format("{}", airlight.bound);
+  image.metadata["airlight.shadows-per-pixel"] = fmt::format("{}", airlight.shadows_per_pixel);
+  image.metadata["airlight.lit-runs-per-pixel"] = fmt::format("{}", airlight.lit_runs_per_pixel);
+  save(key(light, fmt::format("airlight, refined {} times", refinement)), std::move(image));
 }
 
 }  // namespace airlight::quality

@@ -28,8 +28,8 @@ class TruthCache {
   // @throws scene::Error (bad_file) where a file is damaged or cannot be written
   std::optional<Surfaces> load_surfaces(std::size_t light) const;
   void save_surfaces(std::size_t light, const Surfaces& surfaces) const;
-  std::optional<reference::AirlightImage> load_converged(std::size_t light, int samples) const;
-  void save_converged(std::size_t light, int samples, const reference::AirlightImage& image) const;
+  std::optional<reference::AirlightImage> load_airlight(std::size_t light, int refinement) const;
+  void save_airlight(std::size_t light, int refinement, const reference::AirlightImage& image) const;
 
  private:
   /// All that an image depends on, in words.

@@ -22,8 +22,7 @@ namespace {
 constexpr double k_panel_depth = 6.0;
 /// Light this much deeper than at the eye is left out: e^{−60} of the unshadowed airlight.
 constexpr double k_depth_range = 60.0;
-/// The last part of an endless ray that is left out, relative to ψ at the eye; the integrand is bounded
-/// there.
+/// The last part of an endless ray, relative to ψ at the eye, that is one panel: nothing there counts.
 constexpr double k_psi_range = 1e-9;
 
 struct Node {
@@ -81,37 +80,40 @@ Value FogQuadrature::sum_panels(double psi_from, double psi_to, const Integrand&
                                 const Longest& longest_from) const {
   Value sum(0.0);
   double psi = psi_from;
-  while (psi > psi_to && psi > smallest_psi_) {
+  while (psi > psi_to) {
     const double optical_depth = depth_offset_ + depth_scale_ / std::tan(0.5 * psi);
     if (!(optical_depth < deepest_)) break;
-    const double longest = std::min(psi - panel_end(psi, optical_depth), longest_from(psi));
+    const double longest =
+        psi > smallest_psi_ ? std::min(psi - panel_end(psi, optical_depth), longest_from(psi)) : psi;
     const double length = std::min(longest, psi - psi_to);
     const double next = length < longest ? psi_to : psi - longest;
-    // Short lit runs between many shadows are common, and need few nodes.
-    if (length < longest / 64.0) {
-      sum += gauss_legendre(k_gauss_2, psi, next, f);
-    } else if (length < longest / 8.0) {
-      sum += gauss_legendre(k_gauss_4, psi, next, f);
-    } else {
-      sum += gauss_legendre(k_gauss_8, psi, next, f);
+    for (int part = 0; part < parts_; ++part) {
+      const double from = psi + (next - psi) * part / parts_, to = psi + (next - psi) * (part + 1) / parts_;
+      // Short lit runs between many shadows are common, and need few nodes.
+      if (length < longest / 64.0) {
+        sum += gauss_legendre(k_gauss_2, from, to, f);
+      } else if (length < longest / 8.0) {
+        sum += gauss_legendre(k_gauss_4, from, to, f);
+      } else {
+        sum += gauss_legendre(k_gauss_8, from, to, f);
+      }
     }
     psi = next;
   }
   return sum;
 }
 
-double FogQuadrature::integral(double psi_from, double psi_to) const {
-  return sum_panels<double>(
-      psi_from, psi_to, [this](double psi) { return integrand(psi); },
-      [](double) { return std::numeric_limits<double>::infinity(); });
-}
-
-glm::dvec3 FogQuadrature::integral(double psi_from, double psi_to, const LightAlongRay& light) const {
+glm::dvec3 FogQuadrature::integral(double psi_from, double psi_to, const LightAlongRay* light) const {
+  if (!light) {
+    return glm::dvec3(sum_panels<double>(
+        psi_from, psi_to, [this](double psi) { return integrand(psi); },
+        [](double) { return std::numeric_limits<double>::infinity(); }));
+  }
   glm::dvec3 sum(0.0);
-  light.for_each_piece(psi_from, psi_to, [&](double from, double to) {
+  light->for_each_piece(psi_from, psi_to, [&](double from, double to) {
     sum += sum_panels<glm::dvec3>(
-        from, to, [&](double psi) { return integrand(psi) * light.at(psi); },
-        [&](double psi) { return light.smooth_length(psi); });
+        from, to, [&](double psi) { return integrand(psi) * light->at(psi); },
+        [&](double psi) { return light->smooth_length(psi); });
   });
   return sum;
 }

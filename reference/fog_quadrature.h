@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 #include "reference/light_texture.h"
 #include "reference/view_ray.h"
 #include "scene/scene.h"
@@ -13,12 +16,16 @@ class FogQuadrature {
   /// @param medium  for its phase function; kept by reference
   FogQuadrature(const ViewRay& ray, double sigma_t, const scene::Medium& medium);
 
-  /// The integral over ψ ∈ [`psi_to`, `psi_from`] [1/sr·rad], to a relative error below 1e-6 of the integral
-  /// over the whole ray without shadow.
-  double integral(double psi_from, double psi_to) const;
+  /// No integral is farther off than this part of itself: of two million random ones, against four times the
+  /// nodes, the worst was off by 4e-8.
+  static constexpr double k_error = 1e-7;
 
-  /// The same with the light's texture under the integral, RGB, each of the same σ.
-  glm::dvec3 integral(double psi_from, double psi_to, const LightAlongRay& light) const;
+  /// Cuts each panel of the quadrature in so many.
+  void refine(int parts) { parts_ = parts; }
+
+  /// The integral over ψ ∈ [`psi_to`, `psi_from`] [1/sr·rad], RGB.
+  /// @param light whose texture belongs under the integral; nullptr for an even light
+  glm::dvec3 integral(double psi_from, double psi_to, const LightAlongRay* light) const;
 
  private:
   template <class Value, class Integrand, class Longest>
@@ -27,11 +34,32 @@ class FogQuadrature {
   double panel_end(double psi, double optical_depth) const;
 
   const scene::Medium& medium_;
+  int parts_ = 1;
   double g_;             ///< of the phase function's lobe; 0 without one
   double depth_scale_;   ///< σ D sin α
   double depth_offset_;  ///< σ D cos α: the optical depth of the light's path is offset + scale · cot(ψ/2)
   double deepest_;       ///< optical depth beyond which nothing is added
-  double smallest_psi_;  ///< [rad], below which nothing is added
+  double smallest_psi_;  ///< [rad], below which there is one panel
 };
+
+/// Integrates along a view ray channel by channel.
+/// @param scale     what the integrals will be multiplied with: a channel of 0 is left out
+/// @param integrate std::array<glm::dvec3, N>(FogQuadrature&): N integrals as if all channels had the same σ;
+/// called once for neighbouring channels that do
+template <std::size_t N, class Integrate>
+std::array<glm::dvec3, N> integrate_channels(const ViewRay& ray, const scene::Medium& medium,
+                                             const glm::dvec3& scale, const Integrate& integrate) {
+  const glm::dvec3 sigma_t = glm::dvec3(medium.sigma_s) + glm::dvec3(medium.sigma_a);
+  std::array<glm::dvec3, N> integrals{}, of_sigma{};
+  for (int channel = 0; channel < 3; ++channel) {
+    if (scale[channel] == 0.0) continue;
+    if (channel == 0 || sigma_t[channel] != sigma_t[channel - 1] || scale[channel - 1] == 0.0) {
+      FogQuadrature fog(ray, sigma_t[channel], medium);
+      of_sigma = integrate(fog);
+    }
+    for (std::size_t i = 0; i < N; ++i) integrals[i][channel] = of_sigma[i][channel];
+  }
+  return integrals;
+}
 
 }  // namespace airlight::reference

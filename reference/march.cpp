@@ -130,7 +130,7 @@ AirlightImage Reference::march(int samples, RayMode mode, const Progress& progre
       }
     };
   };
-  parallel_rows(state.view.size.y, make_worker, progress);
+  parallel(state.view.size.y, make_worker, progress);
 
   image.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return image;

@@ -11,29 +11,29 @@
 
 namespace airlight::reference {
 
-/// Works on the rows of an image on every core, and returns when all are done.
+/// Works on the parts of an image on every core, and returns when all are done.
 ///
-/// @param make_worker called once on each thread; returns the callable `void(int row)` that this thread
-/// applies to its rows, with whatever scratch memory it keeps
-/// @param progress told the fraction of rows done, on the calling thread only, which works too
+/// @param make_worker called once on each thread; returns the callable `void(int part)` that this thread
+/// applies to its parts, with whatever scratch memory it keeps
+/// @param progress told the fraction of parts done, on the calling thread only, which works too
 /// The first exception of any thread ends the work and is rethrown.
 template <class MakeWorker>
-void parallel_rows(int rows, const MakeWorker& make_worker, const Progress& progress) {
-  std::atomic<int> next_row{0};
-  std::atomic<int> rows_done{0};
+void parallel(int parts, const MakeWorker& make_worker, const Progress& progress) {
+  std::atomic<int> next_part{0};
+  std::atomic<int> parts_done{0};
   std::exception_ptr error;
   std::mutex error_mutex;
 
   const auto work = [&](const Progress& report) {
     try {
       auto worker = make_worker();
-      for (int row = next_row++; row < rows; row = next_row++) {
-        worker(row);
-        const int done = ++rows_done;
-        if (report) report(static_cast<double>(done) / rows);
+      for (int part = next_part++; part < parts; part = next_part++) {
+        worker(part);
+        const int done = ++parts_done;
+        if (report) report(static_cast<double>(done) / parts);
       }
     } catch (...) {
-      next_row = rows;
+      next_part = parts;
       const std::scoped_lock lock(error_mutex);
       if (!error) error = std::current_exception();
     }
@@ -41,7 +41,8 @@ void parallel_rows(int rows, const MakeWorker& make_worker, const Progress& prog
 
   {
     std::vector<std::jthread> helpers;
-    const int helper_count = std::min(static_cast<int>(std::thread::hardware_concurrency()), rows) - 1;
+    const int helper_count = std::min(static_cast<int>(std::thread::hardware_concurrency()), parts) - 1;
+    helpers.reserve(static_cast<std::size_t>(std::max(helper_count, 0)));
     for (int i = 0; i < helper_count; ++i) helpers.emplace_back([&] { work({}); });
     work(progress);
   }

@@ -5,9 +5,9 @@
 
 namespace airlight::reference {
 
-glm::dvec3 Reference::State::pixel_direction(int x, int y) const {
-  const double across = (2.0 * (x + 0.5) / view.size.x - 1.0) * camera.half_width;
-  const double upward = (1.0 - 2.0 * (y + 0.5) / view.size.y) * camera.half_height;
+glm::dvec3 Reference::State::direction(const glm::dvec2& point) const {
+  const double across = (2.0 * point.x / view.size.x - 1.0) * camera.half_width;
+  const double upward = (1.0 - 2.0 * point.y / view.size.y) * camera.half_height;
   return glm::normalize(camera.forward + across * camera.right + upward * camera.up);
 }
 
@@ -20,20 +20,21 @@ glm::dvec3 Reference::State::airlight_scale(const ViewRay& ray) const {
   return glm::dvec3(view.medium.sigma_s) * glm::dvec3(light.intensity) / (ray.D * ray.sin_alpha);
 }
 
+Reference::State::State(const scene::Geometry& geometry, const scene::View& v, std::size_t light_index)
+    : view(v),
+      light(view.lights.at(light_index)),
+      camera(scene::camera_frame(view.camera, view.size)),
+      triangles{geometry.positions, geometry.triangles},
+      visibility(triangles, light.position, camera.eye),
+      eye(camera.eye - light.position),
+      // The tangent size of a pixel at the image's centre stands for its angle.
+      quarter_pixel(0.25 * 2.0 * camera.half_height / view.size.y) {
+  if (light.texture) light_texture.emplace(*light.texture);
+}
+
 Reference::Reference(const scene::Geometry& geometry, const scene::View& view, std::size_t light_index) {
   scene::validate(view);
-  const scene::Light& light = view.lights.at(light_index);
-  const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
-  // The tangent size of a pixel at the image's centre stands for its angle.
-  const double pixel = 2.0 * camera.half_height / view.size.y;
-  state_.reset(new State{.view = view,
-                         .light = light,
-                         .camera = camera,
-                         .visibility = Visibility(geometry, light.position, camera.eye),
-                         .eye = camera.eye - light.position,
-                         .quarter_pixel = 0.25 * pixel,
-                         .light_texture = {}});
-  if (light.texture) state_->light_texture.emplace(*light.texture);
+  state_ = std::make_unique<State>(geometry, view, light_index);
 }
 
 Reference::~Reference() = default;
@@ -50,13 +51,13 @@ SurfaceImage Reference::surfaces(const Progress& progress) const {
         const glm::dvec3 direction = state.pixel_direction(x, y);
         const Visibility::Hit hit = state.visibility.first_hit(direction);
         if (hit.distance == 0.0) continue;
-        const glm::dvec3 point = state.eye + hit.distance * direction;
         image.distance[state.index(x, y)] = static_cast<float>(hit.distance);
-        image.visibility[state.index(x, y)] = state.visibility.surface_lit(point) ? 1.0f : 0.0f;
+        const bool is_lit = state.visibility.surface_lit(hit, direction);
+        image.visibility[state.index(x, y)] = is_lit ? 1.0f : 0.0f;
       }
     };
   };
-  parallel_rows(state.view.size.y, make_worker, progress);
+  parallel(state.view.size.y, make_worker, progress);
   return image;
 }
 

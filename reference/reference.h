@@ -11,21 +11,25 @@ namespace airlight::reference {
 
 /// Raised with every change of the code that changes an image of the truth: images kept on disk are told
 /// apart by it.
-inline constexpr int k_truth_version = 1;
+inline constexpr int k_truth_version = 2;
 
 /// The ground truth of a view, row 0 at the top. Radiances are RGB, unclamped [W/(m² sr)].
 struct SurfaceImage {
   std::vector<float> distance;  ///< along the view ray from the eye [m]; 0 where nothing is hit
-  /// 1 where nothing lies between the light and the surface, 0 in shadow and where nothing is hit. A surface
-  /// does not shadow itself: where it turns its back to the light, it is up to the shading to be black.
+  /// 1 where the side that is seen is lit: it faces the light and nothing lies between; else 0, and where
+  /// nothing is hit.
   std::vector<float> visibility;
 };
 
 struct AirlightImage {
   std::vector<glm::vec3> radiance;
-  std::uint64_t rays = 0;  ///< occlusion rays traced
   double ms = 0.0;  ///< wall-clock time of tracing and integrating, primary rays included, BVH build left out
-  double self_error = 0.0;  ///< rrmse between this image and the one of half as many samples (converged only)
+  std::uint64_t rays = 0;   ///< occlusion rays traced, where there are any
+  double self_error = 0.0;  ///< `sampled`: rrmse between this image and the one of half as many samples
+  // `exact`:
+  double bound = 0.0;              ///< of the rrmse between this image and the truth
+  double shadows_per_pixel = 0.0;  ///< triangles that hide a part of a view ray
+  double lit_runs_per_pixel = 0.0;
 };
 
 enum class RayMode { single, packet };
@@ -52,13 +56,18 @@ class Reference {
   /// equal steps of φ ∈ [0, φ_d]: what Wyman (2011, Fig. 16) times voxelized shadow volumes against.
   AirlightImage march(int samples, RayMode mode, const Progress& progress = {}) const;
 
-  /// `reference`: the converged airlight. `samples` uniform steps in φ find the visibility changes, each is
-  /// bisected to 1e-6 of the range, and lit runs are integrated by Gauss–Legendre quadrature in double
-  /// precision.
-  AirlightImage converged(int samples, const Progress& progress = {}) const;
+  /// `reference-sampled`: `samples` uniform steps in φ find the visibility changes, each is bisected to 1e-6
+  /// of the range, and lit runs are integrated by Gauss–Legendre quadrature in double precision.
+  AirlightImage sampled(int samples, const Progress& progress = {}) const;
+
+  /// `reference`: the truth. The union of the intervals of φ that the scene's triangles hide, in double
+  /// precision, and the same quadrature: nothing is sampled.
+  /// @param refinement parts that each panel of the quadrature is cut into: tests its bound
+  AirlightImage exact(int refinement = 1, const Progress& progress = {}) const;
 
  private:
   struct State;
+  class TileIntegrator;
   std::unique_ptr<State> state_;
 };
 

@@ -4,6 +4,7 @@
 
 #include "reference/light_texture.h"
 #include "reference/reference.h"
+#include "reference/triangles.h"
 #include "reference/view_ray.h"
 #include "reference/visibility.h"
 #include "scene/scene.h"
@@ -15,13 +16,17 @@ struct Reference::State {
   scene::View view;
   scene::Light light;
   scene::CameraFrame camera;
-  Visibility visibility;
+  Triangles triangles;
+  Visibility visibility;                     ///< of `triangles`
   glm::dvec3 eye;                            ///< relative to the light [m]
   double quarter_pixel;                      ///< the smallest α [rad]
   std::optional<LightLookup> light_texture;  ///< where the light has one
 
-  /// Unit direction through the centre of a pixel.
-  glm::dvec3 pixel_direction(int x, int y) const;
+  State(const scene::Geometry& geometry, const scene::View& view, std::size_t light_index);
+
+  /// Unit direction through a point of the image [pixels]; centres are at half-integers.
+  glm::dvec3 direction(const glm::dvec2& point) const;
+  glm::dvec3 pixel_direction(int x, int y) const { return direction(glm::dvec2(x, y) + 0.5); }
 
   /// The view ray of a pixel, up to its first surface.
   ViewRay view_ray(int x, int y) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 // With the light at the origin and l the unit direction from the eye to the light, the eye is −D l and the
@@ -20,6 +21,15 @@ namespace {
 constexpr double k_parallel = 1e-12;
 
 }  // namespace
+
+glm::dvec3 ViewRay::end(const glm::dvec3& eye) const {
+  if (psi_end > 0.0) return D * sin_alpha * (q + w / std::tan(psi_end));
+  constexpr double k_infinity = std::numeric_limits<double>::infinity();
+  glm::dvec3 end;
+  for (int axis = 0; axis < 3; ++axis)
+    end[axis] = w[axis] == 0.0 ? eye[axis] : std::copysign(k_infinity, w[axis]);
+  return end;
+}
 
 ViewRay make_view_ray(const glm::dvec3& eye, const glm::dvec3& direction, const glm::dvec3& right,
                       double distance, double smallest_alpha) {

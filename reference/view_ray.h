@@ -29,6 +29,10 @@ struct ViewRay {
 
   /// ψ at the fraction s ∈ [0, 1] of the range of φ.
   double psi(double s) const { return psi_end + (1.0 - s) * phi_d; }
+
+  /// The first surface, or infinity, in each axis that the ray moves along.
+  /// @param eye relative to the light [m], as is the point
+  glm::dvec3 end(const glm::dvec3& eye) const;
 };
 
 /// The smallest distance of α from π [rad]. The airlight is even in π − α, so that a ray at the light's

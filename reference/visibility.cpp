@@ -3,13 +3,11 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <vector>
 
 #include <embree3/rtcore.h>
-#include <fmt/format.h>
 
-#include "scene/error.h"
+#include "reference/embree.h"
 
 namespace airlight::reference {
 
@@ -34,47 +32,41 @@ struct Packet16 {
   }
 };
 
-[[noreturn]] void fail(const std::string& problem) {
-  throw scene::Error(scene::ExitCode::driver, "Embree", problem, "give it more memory or a smaller scene");
-}
-
 }  // namespace
 
 struct Visibility::Embree {
-  RTCDevice device = nullptr;
+  EmbreeDevice device;
   RTCScene scene = nullptr;
-  std::string error;                         ///< Embree's last message
-  std::vector<glm::vec3> positions;          ///< world space, before any rounding [m]
-  const std::uint32_t* triangles = nullptr;  ///< three indices each, in Embree's memory
-  glm::dvec3 light{0.0};                     ///< world space [m]
-  glm::dvec3 eye{0.0};                       ///< relative to the light [m]
-  float nearest = 0.0f;                      ///< where light rays begin [m]
-  bool wide = false;                         ///< packets of 16 are native
+  const Triangles& triangles;
+  glm::dvec3 light;                    ///< world space [m]
+  glm::dvec3 eye;                      ///< relative to the light [m]
+  std::vector<bool> edge_on_to_light;  ///< one a triangle; empty where none is
+  std::vector<bool> edge_on_to_eye;
+  bool wide;  ///< packets of 16 are native
 
-  Embree() = default;
+  Embree(const Triangles& of, const glm::dvec3& light_position, const glm::dvec3& eye_position)
+      : scene(rtcNewScene(device.get())),
+        triangles(of),
+        light(light_position),
+        eye(eye_position - light_position),
+        edge_on_to_light(of.edge_on_from(light_position)),
+        edge_on_to_eye(of.edge_on_from(eye_position)),
+        wide(rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0) {
+    device.check();
+  }
   Embree(const Embree&) = delete;
   Embree& operator=(const Embree&) = delete;
-  ~Embree() {
-    if (scene) rtcReleaseScene(scene);
-    if (device) rtcReleaseDevice(device);
-  }
+  ~Embree() { rtcReleaseScene(scene); }
 
-  void check() const {
-    if (rtcGetDeviceError(device) != RTC_ERROR_NONE) fail(error);
-  }
+  /// The corners of a triangle relative to the light, in full precision [m].
+  Corners corners(std::uint32_t triangle) const { return triangles.around(light, triangle); }
 
-  /// A corner of a triangle relative to the light, in full precision [m].
-  glm::dvec3 corner(std::uint32_t triangle, std::size_t corner_index) const {
-    return glm::dvec3(positions[triangles[3 * std::size_t{triangle} + corner_index]]) - light;
-  }
-  /// Normal of a triangle, as long as twice its area.
-  glm::dvec3 normal(std::uint32_t triangle) const {
-    const glm::dvec3 a = corner(triangle, 0);
-    return glm::cross(corner(triangle, 1) - a, corner(triangle, 2) - a);
-  }
+  void attach_triangles();
 
   struct SurfaceContext;
   static void reject_coplanar(const RTCFilterFunctionNArguments* arguments);
+  static void reject_edge_on_to_light(const RTCFilterFunctionNArguments* arguments);
+  static void reject_edge_on_to_eye(const RTCFilterFunctionNArguments* arguments);
 
   template <class Packet>
   std::uint32_t lit_packets(const LightRays& rays, int count) const;
@@ -93,64 +85,62 @@ struct Visibility::Embree::SurfaceContext {
 void Visibility::Embree::reject_coplanar(const RTCFilterFunctionNArguments* arguments) {
   assert(arguments->N == 1);
   const auto& surface = *reinterpret_cast<const SurfaceContext*>(arguments->context);
-  const std::uint32_t triangle = RTCHitN_primID(arguments->hit, 1, 0);
-  const glm::dvec3 normal = surface.embree->normal(triangle);
-  const glm::dvec3 to_point = surface.point - surface.embree->corner(triangle, 0);
+  const Corners corners = surface.embree->corners(RTCHitN_primID(arguments->hit, 1, 0));
+  const glm::dvec3 n = normal(corners);
+  const glm::dvec3 to_point = surface.point - corners[0];
   // The triangle is rounded: its plane is the less certain the farther its corners are from the point.
   const double clearance = surface.clearance + k_rounding * glm::length(to_point);
-  if (std::abs(glm::dot(normal, to_point)) <= clearance * glm::length(normal)) arguments->valid[0] = 0;
+  if (std::abs(glm::dot(n, to_point)) <= clearance * glm::length(n)) arguments->valid[0] = 0;
 }
 
-Visibility::Visibility(const scene::Geometry& geometry, const glm::dvec3& light, const glm::dvec3& eye)
-    : embree_(std::make_unique<Embree>()) {
-  Embree& embree = *embree_;
-  embree.light = light;
-  embree.eye = eye - light;
-  embree.nearest = static_cast<float>(k_light_clearance * glm::length(embree.eye));
-  embree.device = rtcNewDevice(nullptr);
-  if (!embree.device) fail(fmt::format("no device, error {}", static_cast<int>(rtcGetDeviceError(nullptr))));
-  rtcSetDeviceErrorFunction(
-      embree.device,
-      [](void* message, RTCError code, const char* text) {
-        *static_cast<std::string*>(message) =
-            fmt::format("error {}: {}", static_cast<int>(code), text ? text : "");
-      },
-      &embree.error);
-  embree.wide = rtcGetDeviceProperty(embree.device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
+namespace {
 
-  embree.scene = rtcNewScene(embree.device);
-  embree.check();
-  rtcSetSceneFlags(embree.scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
-                                                            RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
-  rtcSetSceneBuildQuality(embree.scene, RTC_BUILD_QUALITY_HIGH);
-
-  if (!geometry.triangles.empty()) {
-    const RTCGeometry mesh = rtcNewGeometry(embree.device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    embree.check();
-    rtcAttachGeometry(embree.scene, mesh);
-    rtcReleaseGeometry(mesh);  // the scene keeps it
-    auto* positions = static_cast<float*>(rtcSetNewGeometryBuffer(
-        mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), geometry.positions.size()));
-    embree.check();
-    auto* triangles = static_cast<std::uint32_t*>(
-        rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t),
-                                geometry.triangles.size()));
-    embree.check();
-    for (std::size_t i = 0; i < geometry.positions.size(); ++i) {
-      const glm::vec3 relative(glm::dvec3(geometry.positions[i]) - light);
-      for (int axis = 0; axis < 3; ++axis) positions[3 * i + static_cast<std::size_t>(axis)] = relative[axis];
-    }
-    for (std::size_t i = 0; i < geometry.triangles.size(); ++i) {
-      for (int corner = 0; corner < 3; ++corner) {
-        triangles[3 * i + static_cast<std::size_t>(corner)] = geometry.triangles[i][corner];
-      }
-    }
-    rtcCommitGeometry(mesh);
-    embree.positions = geometry.positions;
-    embree.triangles = triangles;
+void reject(const RTCFilterFunctionNArguments* arguments, const std::vector<bool>& rejected) {
+  for (unsigned i = 0; i < arguments->N; ++i) {
+    if (arguments->valid[i] != 0 && rejected[RTCHitN_primID(arguments->hit, arguments->N, i)])
+      arguments->valid[i] = 0;
   }
-  rtcCommitScene(embree.scene);
-  embree.check();
+}
+
+}  // namespace
+
+void Visibility::Embree::reject_edge_on_to_light(const RTCFilterFunctionNArguments* arguments) {
+  reject(arguments, static_cast<const Embree*>(arguments->geometryUserPtr)->edge_on_to_light);
+}
+
+void Visibility::Embree::reject_edge_on_to_eye(const RTCFilterFunctionNArguments* arguments) {
+  reject(arguments, static_cast<const Embree*>(arguments->geometryUserPtr)->edge_on_to_eye);
+}
+
+void Visibility::Embree::attach_triangles() {
+  const RTCGeometry mesh = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  device.check();
+  rtcAttachGeometry(scene, mesh);
+  rtcReleaseGeometry(mesh);  // the scene keeps it
+  auto* positions = static_cast<float*>(rtcSetNewGeometryBuffer(
+      mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), triangles.positions.size()));
+  device.check();
+  for (std::size_t i = 0; i < triangles.positions.size(); ++i) {
+    const glm::vec3 relative(glm::dvec3(triangles.positions[i]) - light);
+    for (int axis = 0; axis < 3; ++axis) positions[3 * i + static_cast<std::size_t>(axis)] = relative[axis];
+  }
+  rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.indices.data(), 0,
+                             sizeof(glm::uvec3), triangles.count());
+  rtcSetGeometryUserData(mesh, this);
+  if (!edge_on_to_light.empty()) rtcSetGeometryOccludedFilterFunction(mesh, reject_edge_on_to_light);
+  if (!edge_on_to_eye.empty()) rtcSetGeometryIntersectFilterFunction(mesh, reject_edge_on_to_eye);
+  rtcCommitGeometry(mesh);
+}
+
+Visibility::Visibility(const Triangles& triangles, const glm::dvec3& light, const glm::dvec3& eye)
+    : embree_(std::make_unique<Embree>(triangles, light, eye)) {
+  const RTCScene scene = embree_->scene;
+  rtcSetSceneFlags(
+      scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+  if (triangles.count() > 0) embree_->attach_triangles();
+  rtcCommitScene(scene);
+  embree_->device.check();
 }
 
 Visibility::~Visibility() = default;
@@ -177,30 +167,38 @@ Visibility::Hit Visibility::first_hit(const glm::dvec3& direction) const {
 
   // The plane of the triangle, met in double precision: single precision leaves the hit off its surface.
   // Edge-on, where the plane says little, Embree's own distance is kept.
-  const glm::dvec3 normal = embree_->normal(ray.hit.primID);
+  const Corners corners = embree_->corners(ray.hit.primID);
+  const glm::dvec3 n = normal(corners);
   const double single = static_cast<double>(ray.ray.tfar);
-  const double exact =
-      glm::dot(normal, embree_->corner(ray.hit.primID, 0) - embree_->eye) / glm::dot(normal, direction);
+  const double exact = glm::dot(n, corners[0] - embree_->eye) / glm::dot(n, direction);
   const double uncertainty = 1e-3 * single + k_rounding * glm::length(embree_->eye);
   const bool agrees = exact > 0.0 && std::abs(exact - single) <= uncertainty;
   return {agrees ? exact : single, ray.hit.primID};
 }
 
-bool Visibility::surface_lit(const glm::dvec3& point) const {
+bool Visibility::surface_lit(const Hit& hit, const glm::dvec3& direction) const {
+  const glm::dvec3 point = embree_->eye + hit.distance * direction;
   const double length = glm::length(point);
   if (length == 0.0) return true;
+
+  const Corners corners = embree_->corners(hit.triangle);
+  const glm::dvec3 n = normal(corners);
+  const double light_height = glm::dot(n, -corners[0]), eye_height = glm::dot(n, embree_->eye - corners[0]);
+  const bool is_between = light_height * eye_height < 0.0;
+  if (is_between && std::abs(light_height) > k_rounding * glm::length(n) * (length + hit.distance))
+    return false;
+
   Embree::SurfaceContext surface{};
   rtcInitIntersectContext(&surface.context);
   surface.context.filter = Embree::reject_coplanar;
   surface.embree = embree_.get();
   surface.point = point;
-  surface.clearance = k_rounding * (length + glm::length(point - embree_->eye));
+  surface.clearance = k_rounding * (length + hit.distance);
   const glm::vec3 along(point / length);
   RTCRay ray{};
   ray.dir_x = along.x;
   ray.dir_y = along.y;
   ray.dir_z = along.z;
-  ray.tnear = embree_->nearest;
   ray.tfar = static_cast<float>(length);
   ray.mask = ~0u;
   rtcOccluded1(embree_->scene, &surface.context, &ray);
@@ -220,7 +218,6 @@ std::uint32_t Visibility::Embree::lit_packets(const LightRays& rays, int count) 
       packet.dir_x[lane] = rays.direction_x[first + lane];
       packet.dir_y[lane] = rays.direction_y[first + lane];
       packet.dir_z[lane] = rays.direction_z[first + lane];
-      packet.tnear[lane] = nearest;
       packet.tfar[lane] = rays.length[first + lane];
       packet.mask[lane] = ~0u;
       valid[lane] = first + lane < count ? -1 : 0;
@@ -244,7 +241,6 @@ std::uint32_t Visibility::Embree::lit_single(const LightRays& rays, int count) c
     ray.dir_x = rays.direction_x[i];
     ray.dir_y = rays.direction_y[i];
     ray.dir_z = rays.direction_z[i];
-    ray.tnear = nearest;
     ray.tfar = rays.length[i];
     rtcOccluded1(scene, &context, &ray);
     lit |= static_cast<std::uint32_t>(ray.tfar >= 0.0f) << i;

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "reference/reference.h"
+#include "reference/triangles.h"
 #include "scene/scene.h"
 
 namespace airlight::reference {
@@ -20,36 +21,34 @@ struct LightRays {
 /// Which points the light sees: rays cast by Embree through triangles held relative to the light.
 ///
 /// Light rays start at the light, so that all the rays of a view ray share their origin and descend the
-/// hierarchy together. They leave out the first `k_light_clearance` of the distance from eye to light: a
-/// light on a surface does not shadow itself, and occluders nearer to the light than this are not seen.
-/// Embree's robust mode lets no ray through the edge between two triangles.
+/// hierarchy together. A triangle whose plane holds the light casts no shadow, and one whose plane holds the
+/// eye is not seen (triangles.h). Embree's robust mode lets no ray through the edge between two triangles.
 class Visibility {
  public:
-  /// Relative to the distance from eye to light.
-  static constexpr double k_light_clearance = 1e-5;
-
+  /// @param triangles kept by reference
   /// @param light, eye world space [m]
   /// @throws scene::Error (driver) when Embree fails
-  Visibility(const scene::Geometry& geometry, const glm::dvec3& light, const glm::dvec3& eye);
+  Visibility(const Triangles& triangles, const glm::dvec3& light, const glm::dvec3& eye);
   ~Visibility();
   Visibility(Visibility&&) noexcept;
   Visibility& operator=(Visibility&&) noexcept;
 
   struct Hit {
     double distance;         ///< from the eye [m]; 0 for none
-    std::uint32_t triangle;  ///< index into the geometry
+    std::uint32_t triangle;  ///< its number
   };
   /// The first surface along the view ray of that unit direction.
   Hit first_hit(const glm::dvec3& direction) const;
 
-  /// Whether nothing lies between the light and a point of `triangle`.
+  /// Whether the side that is seen of a surface is lit at a first hit: it faces the light, whichever way the
+  /// triangle's corners go round, and nothing lies between.
   ///
-  /// The side that faces the light does not matter: a lone triangle is lit on both sides. A triangle in whose
+  /// A triangle in whose
   /// plane the point lies (to 1e-6 of the distances involved) casts no shadow on it, which rids the surface,
   /// its coplanar neighbours, and surfaces seen edge-on by the light of shadows on themselves without any
   /// offset along the ray.
-  /// @param point relative to the light [m]
-  bool surface_lit(const glm::dvec3& point) const;
+  /// @param direction that `first_hit` was asked for
+  bool surface_lit(const Hit& hit, const glm::dvec3& direction) const;
 
   /// Bit i is set where ray i of the first `count` reaches its sample.
   std::uint32_t lit(const LightRays& rays, int count, RayMode mode) const;

@@ -33,16 +33,16 @@ march=reference-march:rays=single,reference-march:rays=packet
 case ${1:-} in
   accuracy)
     for scene in window fence sponza; do
-      compare "$scene" --size 512x512 --reference-samples 1024 -o "$out/accuracy_$scene" \
+      compare "$scene" --size 512x512 -o "$out/accuracy_$scene" \
         --volume vsv,vsv:integral=riemann,vsv:phi-cells=equal --quiet
     done
     # Foliage needs more samples before the reference stands still.
-    compare maple --size 512x512 --reference-samples 2048 -o "$out/accuracy_maple" \
+    compare maple --size 512x512 -o "$out/accuracy_maple" \
       --volume vsv,vsv:integral=riemann,vsv:phi-cells=equal --quiet
     ;;
   speed)
     for scene in window sponza maple; do
-      compare "$scene" --size 1024x1024 --shadow-map 1024 --reference-samples 128 -o "$out/speed_$scene" \
+      compare "$scene" --size 1024x1024 --shadow-map 1024 -o "$out/speed_$scene" \
         --volume "vsv,vsv:scan=column,vsv:integral=riemann,$march" --quiet
     done
     ;;
@@ -51,8 +51,8 @@ case ${1:-} in
     for n in 64 128 256; do grids+=,vsv:alpha=$n; done
     for n in 64 128 256 512 1024; do grids+=,vsv:theta=$n; done
     for n in 128 256 1024; do grids+=,vsv:phi=$n; done
-    compare window --size 512x512 --reference-samples 1024 -o "$out/curves_window" --volume "$grids" --frames 1 --quiet
-    compare sponza --size 512x512 --reference-samples 1024 -o "$out/curves_sponza" --volume "$grids" --frames 1 --quiet
+    compare window --size 512x512 -o "$out/curves_window" --volume "$grids" --frames 1 --quiet
+    compare sponza --size 512x512 -o "$out/curves_sponza" --volume "$grids" --frames 1 --quiet
     ;;
   cost)
     volumes=
@@ -65,7 +65,7 @@ case ${1:-} in
     done
     volumes+=,vsv:theta-cells=equal:phi-cells=equal:scan=multi-pass:ranges=alpha-phi:integral=riemann # all as in the paper
     for scene in window fence sponza maple; do
-      compare "$scene" --size 1024x1024 --shadow-map 2048 --reference-samples 256 -o "$out/cost_$scene" --frames 2 \
+      compare "$scene" --size 1024x1024 --shadow-map 2048 -o "$out/cost_$scene" --frames 2 \
         --volume "$volumes" --quiet
     done
     ;;
@@ -80,16 +80,16 @@ case ${1:-} in
     view[toroid]=toroid
     view[toroid_hole]=assets/toroid_hole.toml
     for scene in toroid toroid_hole bunny_closed lucy bunny_holes sponza; do
-      compare "$scene" --size 512x512 --shadow-map 2048 --reference-samples 512 -o "$out/leaks_$scene" --frames 1 \
+      compare "$scene" --size 512x512 --shadow-map 2048 -o "$out/leaks_$scene" --frames 1 \
         --volume "$volumes" --quiet
     done
     ;;
   causes)
     fine=vsv:alpha=1024:theta=8192:phi=1024
     for scene in window fence sponza maple; do
-      compare "$scene" --size 512x512 --shadow-map 4096 --reference-samples 1024 -o "$out/causes_$scene" --frames 1 --quiet \
+      compare "$scene" --size 512x512 --shadow-map 4096 -o "$out/causes_$scene" --frames 1 --quiet \
         --volume "$fine,vsv:alpha=512:theta=8192:phi=1024,vsv:alpha=1024:theta=2048:phi=1024,vsv:alpha=1024:theta=8192:phi=512,$fine:integral=riemann,$fine:integral=factored"
-      compare "$scene" --size 512x512 --shadow-map 2048 --reference-samples 1024 -o "$out/causes_shadow_map_$scene" --frames 1 \
+      compare "$scene" --size 512x512 --shadow-map 2048 -o "$out/causes_shadow_map_$scene" --frames 1 \
         --volume "$fine" --quiet
     done
     ;;

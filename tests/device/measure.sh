@@ -84,7 +84,7 @@ compare() {
 volumes=vsv,vsv:scan=column,vsv:scan=multi-pass,vsv:integral=riemann,vsv:integral=factored
 volumes=$volumes,vsv:populate=conservative,vsv:populate=screen-space
 for size in $sizes; do
-  common="--size ${size}x$size --reference-samples 128 --frames 5 --volume $volumes"
+  common="--size ${size}x$size --frames 5 --volume $volumes"
   # shellcheck disable=SC2086  # several words
   {
     compare window $common,reference-march
@@ -99,7 +99,7 @@ for size in $sizes; do
         --sigma-s 0.04 --sigma-a 0.01 $common
   }
   # A surface shadow by the volume's bits, and an empty frame, whose cost every method shares.
-  compare window --size "${size}x$size" --reference-samples 128 --volume none --surface shadow-map,vsv,none
+  compare window --size "${size}x$size" --volume none --surface shadow-map,vsv,none
 done
 
 say

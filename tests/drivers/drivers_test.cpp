@@ -127,7 +127,7 @@ TEST_P(Drivers, ShowTheSameImages) {
     for (const char* driver : {"default", "zink"}) {
       const std::string command = fmt::format(
           "compare {} {} -o {} --size 96x64 --alpha 128 --theta 512 --phi 256 --shadow-map 512 --frames 1 "
-          "--reference-samples 16 --quiet",
+          "--quiet",
           GetParam(), method, driver);
       ASSERT_EQ(run(driver, command), 0) << text(driver);
     }

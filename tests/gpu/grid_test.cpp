@@ -179,7 +179,8 @@ class BitsOf {
       : n_(n),
         axes_(make_axes(glm::normalize(view.lights[0].position - view.camera.eye))),
         D_(glm::distance(view.lights[0].position, view.camera.eye)),
-        exact_(scene.geometry, view.lights[0].position, view.camera.eye) {
+        triangles_{scene.geometry.positions, scene.geometry.triangles},
+        exact_(triangles_, view.lights[0].position, view.camera.eye) {
     tests::look_into_frame(scene.geometry, view, shadow_map_size, [&](const frame::FrameInputs& inputs) {
       ShadowVolume volume(inputs.context.limits(), {.resolution = n, .ranges = Ranges::alpha_phi});
       tests::build(volume, inputs, k_growth);
@@ -217,6 +218,7 @@ class BitsOf {
   Resolution n_;
   Axes axes_;
   double D_;
+  reference::Triangles triangles_;
   Visibility exact_;
   std::vector<std::uint32_t> bits_;
   Range alpha_{};

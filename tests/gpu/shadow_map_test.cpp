@@ -42,7 +42,8 @@ TEST_P(ShadowMapOf, HoldsTheDistancesOfRaysThroughItsTexels) {
     shaders::LightBlock light;
     glGetNamedBufferSubData(static_cast<GLuint>(block), 0, sizeof light, &light);
     // Rays from the light: what is the light elsewhere is here any other point.
-    const reference::Visibility exact(scene.geometry, view.camera.eye, view.lights[0].position);
+    const reference::Triangles triangles{scene.geometry.positions, scene.geometry.triangles};
+    const reference::Visibility exact(triangles, view.camera.eye, view.lights[0].position);
     std::size_t at = 0, hits = 0, wrong = 0;
     for (int face = 0; face < 6; ++face) {
       for (int y = 0; y < size; ++y) {

@@ -31,7 +31,7 @@ class Convergence : public testing::TestWithParam<Curve> {
     static std::map<std::string, tests::Truth> truths;
     const auto kept = truths.find(name);
     if (kept != truths.end()) return kept->second;
-    return truths.emplace(name, tests::trace(tests::builtin(name).geometry, view(name), 2048)).first->second;
+    return truths.emplace(name, tests::trace(tests::builtin(name).geometry, view(name))).first->second;
   }
   static scene::View view(const char* name) { return tests::view_of(tests::builtin(name), {64, 64}); }
 };
@@ -81,7 +81,7 @@ TEST_P(Accuracy, OfBothIntegralsAtTheDefaultResolution) {
   const Agreement& expected = GetParam();
   const scene::Scene& scene = tests::builtin(expected.scene);
   const scene::View view = tests::view_of(scene, {96, 96});
-  const tests::Truth truth = tests::trace(scene.geometry, view, 1024);
+  const tests::Truth truth = tests::trace(scene.geometry, view);
   std::vector<std::vector<glm::vec3>> images;
   for (media::VsvIntegral integral : {media::VsvIntegral::table, media::VsvIntegral::riemann}) {
     const tests::VsvSettings settings{

@@ -62,7 +62,7 @@ TEST(Factored, IsTheLitFractionOfTheAnglesTimesTheUnshadowedAirlight) {
 TEST(Factored, IsNearTheTruthAndTheTableIsNearer) {
   const scene::Scene& scene = tests::builtin("cornell");
   const scene::View view = tests::view_of(scene, {48, 48});
-  const tests::Truth truth = tests::trace(scene.geometry, view, 256);
+  const tests::Truth truth = tests::trace(scene.geometry, view);
   const auto error = tests::error_of(tests::render_vsv(scene.geometry, view, factored()), truth);
   const auto table = tests::error_of(tests::render_vsv(scene.geometry, view), truth);
   RecordProperty("factored", std::to_string(error.rrmse) + ", bias " + std::to_string(error.bias));

@@ -106,7 +106,7 @@ TEST(TexturedLight, HalfBlackAgreesWithTheReference) {
   scene::View view = tests::view_of(scene, {64, 64});
   const frame::FrameImages plain = tests::render_vsv(scene.geometry, view, riemann());
   view.lights[0].texture = half_black();
-  const tests::Truth truth = tests::trace(scene.geometry, view, 256);
+  const tests::Truth truth = tests::trace(scene.geometry, view);
   const frame::FrameImages images = tests::render_vsv(scene.geometry, view, riemann());
   // The grid's error as without a texture, and a sum over cells across the edge between light and dark, a
   // texel wide.
@@ -143,7 +143,7 @@ TEST(TexturedLight, InEmptyFogAgreesWithTheReferenceFromEverySide) {
   });
   for (glm::dvec3 offset : {glm::dvec3(0, 0, 0), glm::dvec3(0.5, 2, 0.1), glm::dvec3(-1, -3, 9)}) {
     view.lights[0].position += offset;
-    const auto expected = reference::Reference({}, view).converged(16).radiance;
+    const auto expected = reference::Reference({}, view).exact().radiance;
     const auto error = tests::error_of(tests::render_vsv({}, view, riemann()).airlight, expected);
     // A sum over 512 cells of a texture that is not smooth.
     EXPECT_LT(error.max, 5e-3);

@@ -53,7 +53,7 @@ TEST(RgbMediumReference, AgreesInEveryChannel) {
   view.medium.sigma_a = {0.3f, 0.0f, 0.1f};
   view.medium.phase = scene::PhaseFunction::henyey_greenstein;
   view.medium.g = 0.5f;
-  const tests::Truth truth = tests::trace(scene.geometry, view, 256);
+  const tests::Truth truth = tests::trace(scene.geometry, view);
   const frame::FrameImages images = tests::render_vsv(scene.geometry, view);
   for (int channel = 0; channel < 3; ++channel) {
     double sum = 0.0, expected = 0.0;

@@ -208,8 +208,8 @@ void expect_not_negative(const frame::FrameImages& images) {
 /// A view's truth, and what errors are measured by.
 struct Expected {
   Expected(const scene::Geometry& geometry, const scene::View& view)
-      : truth(tests::trace(geometry, view, 256)), mean_airlight(mean(truth.airlight.radiance)) {
-    const double unshadowed = mean(reference::Reference({}, view).converged(16).radiance);
+      : truth(tests::trace(geometry, view)), mean_airlight(mean(truth.airlight.radiance)) {
+    const double unshadowed = mean(reference::Reference({}, view).exact().radiance);
     scale = mean_airlight > 0.01 * unshadowed ? mean_airlight : unshadowed;
   }
 

@@ -16,7 +16,7 @@ TEST(Seam, AtPlusMinusPiIsAsGoodAsElsewhere) {
   // Slats all around the light, which is in view: θ takes every value, and shadows cross the seam.
   const scene::Geometry geometry = reference::tests::clutter(150);
   scene::View view = reference::tests::clutter_view(96);
-  const tests::Truth truth = tests::trace(geometry, view, 512);
+  const tests::Truth truth = tests::trace(geometry, view);
   const frame::FrameImages images = tests::render_vsv(geometry, view, {.resolution = {256, 512, 512}});
 
   const shaders::EpipolarBlock space = epipolar::epipolar_block(

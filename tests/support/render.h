@@ -66,9 +66,9 @@ struct Truth {
   reference::AirlightImage airlight;
 };
 
-inline Truth trace(const scene::Geometry& geometry, const scene::View& view, int samples) {
+inline Truth trace(const scene::Geometry& geometry, const scene::View& view) {
   const reference::Reference reference(geometry, view);
-  return {.surfaces = reference.surfaces(), .airlight = reference.converged(samples)};
+  return {.surfaces = reference.surfaces(), .airlight = reference.exact()};
 }
 
 /// The error over the pixels where both see the same surface: rasterisation snaps corners to 1/256 pixel, so

@@ -38,8 +38,7 @@ const media::VsvOptions& vsv_of(const VolumeChoice& choice) {
 
 TEST(MethodSpec, OfOneWordTakesTheCommonOptions) {
   const std::vector<CommonOption> common = {{"--alpha", "alpha", "100"},
-                                            {"--integral", "integral", "riemann"},
-                                            {"--reference-samples", "samples", "7"}};
+                                            {"--integral", "integral", "riemann"}};
   const std::vector<VolumeChoice> choices = parse_volumes("vsv", common);
   ASSERT_EQ(choices.size(), 1u);
   EXPECT_EQ(choices[0].spec, "vsv");
@@ -53,7 +52,7 @@ TEST(MethodSpec, OwnKeysOverrideTheCommonOptions) {
       {"--alpha", "alpha", "100"}, {"--theta", "theta", "200"}, {"--phi", "phi", "256"}};
   const std::vector<VolumeChoice> choices = parse_volumes(
       "vsv:alpha=7:phi=128,vsv:integral=riemann:scan=column:phi-cells=equal:populate=conservative,"
-      "reference:samples=33,reference-march:steps=44:rays=single,none",
+      "reference-sampled:samples=33,reference-march:steps=44:rays=single,none",
       common);
   ASSERT_EQ(choices.size(), 5u);
   EXPECT_EQ(vsv_of(choices[0]).volume.resolution, (epipolar::Resolution{7, 200, 128}));
@@ -84,7 +83,7 @@ TEST(MethodSpec, MistakesAreNamedWithWhatIsValid) {
   EXPECT_THAT(complaint("vsv:phi=100"), HasSubstr("multiple of 128"));
   EXPECT_THAT(complaint("vsv:phi=0"), HasSubstr("multiple of 128"));
   EXPECT_THAT(complaint("vsv:theta=many"), HasSubstr("theta"));
-  EXPECT_THAT(complaint("reference:samples=auto"), HasSubstr("'auto'"));
+  EXPECT_THAT(complaint("reference-sampled:samples=auto"), HasSubstr("'auto'"));
   EXPECT_THAT(complaint("vsv:populate=screen-space:scan=fused"), HasSubstr("column"));
   EXPECT_THAT(complaint("vsv:integral=sum"), testing::AllOf(HasSubstr("unknown"), HasSubstr("riemann")));
   EXPECT_THAT(complaint("none:alpha=4"), HasSubstr("it has none"));
@@ -262,15 +261,15 @@ TEST(SharedReference, TracesTheTruthOnceAndChargesForItTwice) {
   view.size = {8, 8};
   SharedReference shared(geometry, view, {});
 
-  const reference::AirlightImage* image = &shared.converged(0, 16);
+  const reference::AirlightImage* image = &shared.exact(0, 1);
   const SharedReference::Work first = shared.take_work();
-  EXPECT_GT(first.airlight_rays, 0u);
+  EXPECT_GT(first.airlight_ms, 0.0);
   EXPECT_EQ(first.kept_airlight_ms, 0.0);
-  EXPECT_EQ(&shared.converged(0, 16), image);
+  EXPECT_EQ(&shared.exact(0, 1), image);
   const SharedReference::Work second = shared.take_work();
-  EXPECT_EQ(second.airlight_rays, first.airlight_rays);
+  EXPECT_EQ(second.airlight_ms, first.airlight_ms);
   EXPECT_EQ(second.kept_airlight_ms, first.airlight_ms);
-  EXPECT_NE(&shared.converged(0, 32), image);
+  EXPECT_NE(&shared.exact(0, 2), image);
   EXPECT_EQ(shared.take_work().kept_airlight_ms, 0.0);
 
   shared.surfaces(0);

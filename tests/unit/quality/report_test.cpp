@@ -12,7 +12,7 @@ using testing::Not;
 Comparison one_run() {
   Comparison comparison;
   comparison.scene = "<hall> & \"yard\"";
-  comparison.truth.self_error = 0.001;
+  comparison.truth.bound = 0.001;
   Run run;
   run.volume = "vsv:alpha=64";
   run.surface = "shadow-map";

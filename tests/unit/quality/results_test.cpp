@@ -18,7 +18,8 @@ using testing::HasSubstr;
 Comparison two_runs() {
   Comparison comparison;
   comparison.scene = "hall";
-  comparison.truth = {.samples = 512, .self_error = 0.001, .ms = 2.0, .rays = 4000, .mean_airlight = 0.5};
+  comparison.truth = {
+      .bound = 0.001, .ms = 2.0, .shadows_per_pixel = 40.0, .lit_runs_per_pixel = 3.0, .mean_airlight = 0.5};
   Run vsv;
   vsv.volume = "vsv";
   vsv.surface = "shadow-map";
@@ -45,7 +46,7 @@ Comparison two_runs() {
 TEST(ResultsJson, KeepsRawFigures) {
   const json results = json::parse(results_json(two_runs()));
   EXPECT_EQ(results["scene"]["name"], "hall");
-  EXPECT_EQ(results["reference"]["self_error"], 0.001);
+  EXPECT_EQ(results["reference"]["bound"], 0.001);
   const json& vsv = results["runs"][0];
   EXPECT_EQ(vsv["settings"], (json{{"alpha", 512}, {"integral", "table"}}));
   EXPECT_EQ(vsv["surface_settings"], (json{{"theta", 64}}));

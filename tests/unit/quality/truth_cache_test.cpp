@@ -31,9 +31,9 @@ class Cache : public testing::Test {
     view_.size = {9, 7};
   }
 
-  Truth trace(int samples = 16) {
+  Truth trace() {
     SharedReference shared(geometry_, view_, {}, folder_);
-    return trace_truth(shared, view_, samples);
+    return trace_truth(shared, view_);
   }
   std::ptrdiff_t files() const {
     return std::distance(fs::directory_iterator(folder_), fs::directory_iterator());
@@ -48,13 +48,14 @@ TEST_F(Cache, GivesBackEveryBitWithoutTracing) {
   const Truth traced = trace();
   EXPECT_EQ(files(), 4) << "airlight and surfaces of two lights";
   SharedReference shared(geometry_, view_, {}, folder_);
-  const Truth kept = trace_truth(shared, view_, 16);
+  const Truth kept = trace_truth(shared, view_);
   EXPECT_EQ(kept.airlight, traced.airlight);
   EXPECT_EQ(kept.distance, traced.distance);
   EXPECT_EQ(kept.visibility, traced.visibility);
   EXPECT_EQ(kept.figures.ms, traced.figures.ms) << "what it cost when it was traced";
-  EXPECT_EQ(kept.figures.rays, traced.figures.rays);
-  EXPECT_EQ(kept.figures.self_error, traced.figures.self_error);
+  EXPECT_EQ(kept.figures.bound, traced.figures.bound);
+  EXPECT_EQ(kept.figures.shadows_per_pixel, traced.figures.shadows_per_pixel);
+  EXPECT_EQ(kept.figures.lit_runs_per_pixel, traced.figures.lit_runs_per_pixel);
   EXPECT_EQ(shared.take_work().kept_airlight_ms, kept.figures.ms);
   EXPECT_EQ(files(), 4);
 }
@@ -90,8 +91,9 @@ TEST_F(Cache, TellsApartWhateverATruthDependsOn) {
     view_.lights[0].texture =
         std::make_shared<scene::LightTexture>("t", glm::ivec2(1, 1), std::vector<glm::vec3>{glm::vec3(0.5f)});
   });
-  trace(17);
-  EXPECT_EQ(files(), before + 2) << "samples: of two lights, the surfaces as before";
+  SharedReference refined(geometry_, view_, {}, folder_);
+  refined.exact(0, 2);
+  EXPECT_EQ(files(), before + 1) << "refinement";
 }
 
 TEST_F(Cache, ADamagedFileIsAnErrorThatNamesIt) {
@@ -134,13 +136,13 @@ TEST(Truth, OfTwoLightsIsTheSumOfTheirs) {
                  scene::point_light("", {0, 2, 2}, {1, 2, 3})};
   view.size = {9, 7};
   SharedReference both(geometry, view, {});
-  const Truth sum = trace_truth(both, view, 64);
+  const Truth sum = trace_truth(both, view);
   std::vector<glm::vec3> expected(9 * 7, glm::vec3(0.0f));
   for (const scene::Light& light : view.lights) {
     scene::View alone = view;
     alone.lights = {light};
     SharedReference one(geometry, alone, {});
-    const Truth truth = trace_truth(one, alone, 64);
+    const Truth truth = trace_truth(one, alone);
     for (std::size_t i = 0; i < expected.size(); ++i) expected[i] += truth.airlight[i];
   }
   EXPECT_EQ(sum.airlight, expected);

@@ -55,7 +55,7 @@ TEST(EmptyFog, EndlessRaysMatchTheIntegralOverDistance) {
     for (double alpha : k_angles) {
       for (double D : {0.01, 3.0, 12.0}) {
         const scene::View view = one_pixel_view(D, alpha, medium);
-        const AirlightImage image = Reference({}, view).converged(8);
+        const AirlightImage image = Reference({}, view).exact();
         expect_near(image.radiance[0], airlight_over_distance(view, alpha, 0.0, k_infinity),
                     describe(medium, D, alpha));
       }
@@ -74,7 +74,7 @@ TEST(EmptyFog, RaysThatEndOnAWallMatchTheIntegralOverDistance) {
         const float half = 0.1f * distance;
         scene::Geometry wall;
         tests::add_quad(wall, {-half, -half, distance}, {2 * half, 0, 0}, {0, 2 * half, 0});
-        const AirlightImage image = Reference(wall, view).converged(8);
+        const AirlightImage image = Reference(wall, view).exact();
         // Rays are single precision: the last 1e-7 of the light's distance before the wall may lie in its
         // shadow.
         expect_near(image.radiance[0], airlight_over_distance(view, alpha, 0.0, d),
@@ -90,7 +90,7 @@ TEST(EmptyFog, StraightAtTheLightIsTheAirlightAQuarterPixelAside) {
     const glm::dvec3 expected =
         airlight_over_distance(one_pixel_view(3.0, quarter_pixel, medium), quarter_pixel, 0.0, k_infinity);
     for (double alpha : {0.0, 0.9 * quarter_pixel}) {
-      const AirlightImage image = Reference({}, one_pixel_view(3.0, alpha, medium)).converged(8);
+      const AirlightImage image = Reference({}, one_pixel_view(3.0, alpha, medium)).exact();
       expect_near(image.radiance[0], expected, describe(medium, 3.0, alpha));
     }
   }
@@ -100,7 +100,7 @@ TEST(EmptyFog, LightStraightBehindTheCamera) {
   for (const scene::Medium& medium : media()) {
     scene::View view = one_pixel_view(3.0, 0.0, medium);
     view.lights[0].position = {0, 0, -3};
-    const AirlightImage image = Reference({}, view).converged(8);
+    const AirlightImage image = Reference({}, view).exact();
     expect_near(image.radiance[0], airlight_over_distance(view, std::numbers::pi, 0.0, k_infinity),
                 describe(medium, 3.0, std::numbers::pi));
   }
@@ -129,7 +129,7 @@ TEST(EmptyFog, WithoutFogThereIsNoAirlight) {
   const scene::Medium smoke{.sigma_s = glm::vec3(0.0f), .sigma_a = glm::vec3(1.0f)};
   for (const scene::Medium& medium : {vacuum, smoke}) {
     const Reference reference({}, one_pixel_view(3.0, 1.0, medium));
-    EXPECT_EQ(reference.converged(8).radiance[0], glm::vec3(0.0f));
+    EXPECT_EQ(reference.exact().radiance[0], glm::vec3(0.0f));
     EXPECT_EQ(reference.march(8, RayMode::packet).radiance[0], glm::vec3(0.0f));
   }
 }

@@ -20,9 +20,11 @@ using airlight::tests::add_box, airlight::tests::add_quad, airlight::tests::add_
 /// A sphere of 2·`rings` × `rings` quads, its vertices on the sphere.
 inline void add_sphere(scene::Geometry& geometry, glm::vec3 centre, float radius, int rings) {
   const auto vertex = [&](int ring, int segment) {
-    const double polar = std::numbers::pi * ring / rings, azimuth = std::numbers::pi * segment / rings;
-    return centre + radius * glm::vec3(std::sin(polar) * std::cos(azimuth), std::cos(polar),
-                                       std::sin(polar) * std::sin(azimuth));
+    const double polar = std::numbers::pi * ring / rings;
+    const double azimuth = std::numbers::pi * (segment % (2 * rings)) / rings;  // closed to the last bit
+    const double parallel = ring % rings == 0 ? 0.0 : std::sin(polar);
+    return centre +
+           radius * glm::vec3(parallel * std::cos(azimuth), std::cos(polar), parallel * std::sin(azimuth));
   };
   for (int ring = 0; ring < rings; ++ring) {
     for (int segment = 0; segment < 2 * rings; ++segment) {

@@ -31,7 +31,7 @@ TEST_P(AirlightTruth, MeanAndPercentilesAgree) {
   AIRLIGHT_NEEDS(truth.image_file());
   AIRLIGHT_NEEDS(truth.scene_file());
   const std::vector<float> expected = quality::read_exr(truth.image_file()).channels.at("R");
-  const AirlightImage image = make_reference(truth).converged(truth.samples);
+  const AirlightImage image = make_reference(truth).exact();
   std::vector<float> red;
   for (const glm::vec3& radiance : image.radiance) red.push_back(radiance.r);
   ASSERT_EQ(red.size(), expected.size());
@@ -63,7 +63,7 @@ TEST(SurfaceTruth, ShadowsAreBlackButForTheAirlight) {
   AIRLIGHT_NEEDS(k_cycles_full.scene_file());
   const std::vector<float> expected = quality::read_exr(k_cycles_full.image_file()).channels.at("R");
   const Reference reference = make_reference(k_cycles_full);
-  const AirlightImage airlight = reference.converged(k_cycles_full.samples);
+  const AirlightImage airlight = reference.exact();
   const SurfaceImage surfaces = reference.surfaces();
   std::vector<float> lit, dark, none;
   for (std::size_t i = 0; i < expected.size(); ++i) {

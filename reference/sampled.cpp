@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -145,14 +146,13 @@ struct RowSums {
 
 }  // namespace
 
-AirlightImage Reference::converged(int samples, const Progress& progress) const {
+AirlightImage Reference::sampled(int samples, const Progress& progress) const {
   if (samples < 2) {
     throw scene::Error(scene::ExitCode::usage, "reference samples",
                        fmt::format("{} is not at least 2", samples));
   }
   const State& state = *state_;
   const scene::Medium& medium = state.view.medium;
-  const glm::dvec3 sigma_t = glm::dvec3(medium.sigma_s) + glm::dvec3(medium.sigma_a);
 
   AirlightImage image;
   image.radiance.resize(state.pixels());
@@ -170,36 +170,27 @@ AirlightImage Reference::converged(int samples, const Progress& progress) const 
         runs.trace(ray);
         if (texture) texture->aim(ray);
         const glm::dvec3 scale = state.airlight_scale(ray);
-        glm::dvec3 integral(0.0), missed(0.0);
-        glm::dvec3 lit(0.0), lit_missed(0.0);  // as if all channels had the σ of the last one looked at
-        for (int channel = 0; channel < 3; ++channel) {
-          if (scale[channel] == 0.0) continue;
-          const bool is_known =
-              channel > 0 && sigma_t[channel] == sigma_t[channel - 1] && scale[channel - 1] != 0.0;
-          if (!is_known) {
-            const FogQuadrature fog(ray, sigma_t[channel], medium);
-            const auto integrate = [&](double from, double to) {
-              return texture ? fog.integral(ray.psi(from), ray.psi(to), *texture)
-                             : glm::dvec3(fog.integral(ray.psi(from), ray.psi(to)));
-            };
-            lit = lit_missed = glm::dvec3(0.0);
-            runs.for_each_run([&](double from, double to) { lit += integrate(from, to); });
-            runs.for_each_missed_run([&](double from, double to, bool is_lit) {
-              lit_missed += (is_lit ? 1.0 : -1.0) * integrate(from, to);
-            });
-          }
-          integral[channel] = lit[channel];
-          missed[channel] = lit_missed[channel];
-        }
-        const glm::dvec3 radiance = scale * integral;  // docs/method.md (*)
+        const LightAlongRay* light = texture ? &*texture : nullptr;
+        const auto integrals = integrate_channels<2>(ray, medium, scale, [&](const FogQuadrature& fog) {
+          std::array<glm::dvec3, 2> lit_and_missed{};
+          runs.for_each_run([&](double from, double to) {
+            lit_and_missed[0] += fog.integral(ray.psi(from), ray.psi(to), light);
+          });
+          runs.for_each_missed_run([&](double from, double to, bool is_lit) {
+            lit_and_missed[1] += (is_lit ? 1.0 : -1.0) * fog.integral(ray.psi(from), ray.psi(to), light);
+          });
+          return lit_and_missed;
+        });
+        const glm::dvec3 missed = scale * integrals[1];
+        const glm::dvec3 radiance = scale * integrals[0];  // docs/method.md (*)
         image.radiance[state.index(x, y)] = glm::vec3(radiance);
         row.radiance += radiance.r + radiance.g + radiance.b;
-        row.squared_difference += glm::dot(scale * missed, scale * missed);
+        row.squared_difference += glm::dot(missed, missed);
       }
       row.rays += runs.rays() - rays_before;
     };
   };
-  parallel_rows(state.view.size.y, make_worker, progress);
+  parallel(state.view.size.y, make_worker, progress);
 
   image.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   RowSums total;

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "reference/triangles.h"
+#include "reference/view_ray.h"
+
+namespace airlight::reference {
+
+/// Triangles that may cast a shadow on some view rays, laid out for one pass after another over all of them.
+class Occluders {
+ public:
+  void clear();
+
+  /// @param corners relative to the light [m]. A triangle edge-on to the light casts no shadow, and is left
+  /// out.
+  void add(const Corners& corners);
+
+  std::size_t count() const { return corners_.size(); }
+  const Corners& corners(std::size_t i) const { return corners_[i]; }
+
+  /// Writes the numbers of those that may cross the plane through the light of unit normal `n`: all that do,
+  /// and few that do not.
+  void find_crossing(const glm::dvec3& n, std::vector<std::uint32_t>& crossing);
+
+ private:
+  std::vector<Corners> corners_;
+  std::vector<float> x_[3], y_[3], z_[3];  ///< corners in single precision
+  std::vector<float> margin_;              ///< how far their distance from a plane may be off [m]
+  std::vector<std::int32_t> flags_;
+};
+
+/// The part of one view ray that is in shadow, without any sampling. Keeps its memory from ray to ray.
+///
+/// The half-plane of light and view ray cuts a triangle in a segment. Seen from the light, the segment hides
+/// one interval of the ray; the union of the intervals of all triangles is the shadow. With x along the ray
+/// and y across, from the light, the ray is the line y = h, and a point (x, y) with 0 < y < h casts its
+/// shadow to the ray's point x h/y. Intervals are kept in u = x/y = cot ψ (view_ray.h): no trigonometry is
+/// needed to find them.
+///
+/// What makes shadows tight: a corner is on one side of the half-plane or on the other, never on it (zero
+/// counts as positive), and an edge's point in the half-plane is computed in the same order of its ends by
+/// both of its triangles. Neighbouring triangles thus hide intervals that touch bit by bit, and a closed
+/// surface lets no light through where a ray's half-plane meets its edges, corners, or a whole face.
+class ShadowIntervals {
+ public:
+  /// Finds what is lit of the view ray.
+  /// @param occluders all that can cast a shadow on it
+  void trace(const ViewRay& ray, Occluders& occluders);
+
+  /// A lit interval of the ray, in falling order of ψ.
+  struct Run {
+    double psi_from, psi_to;  ///< [rad], from > to
+  };
+  const std::vector<Run>& lit_runs() const { return lit_; }
+
+  /// Triangles that hide a part of the ray.
+  std::size_t count() const { return intervals_.size(); }
+
+ private:
+  struct Interval {
+    double from, to;  ///< u
+  };
+  void add_shadow(const ViewRay& ray, double u_eye, double u_end, const Corners& corners);
+
+  std::vector<std::uint32_t> crossing_;
+  std::vector<Interval> intervals_;
+  std::vector<Run> lit_;
+};
+
+}  // namespace airlight::reference

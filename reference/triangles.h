@@ -1,0 +1,62 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "scene/scene.h"
+
+namespace airlight::reference {
+
+/// The corners of a triangle relative to some point [m].
+using Corners = std::array<glm::dvec3, 3>;
+
+/// As long as twice the area, by the order of the corners [m²].
+inline glm::dvec3 normal(const Corners& c) {
+  return glm::cross(c[1] - c[0], c[2] - c[0]);
+}
+
+/// Whether the plane of a triangle holds the origin, to the rounding of the corners: seen from there, the
+/// triangle is edge-on; it covers nothing and hides nothing.
+///
+/// Corners are differences that were rounded once, so that the volume below is uncertain by a few times
+/// 2⁻⁵³ · (distance of the farthest corner)² · (longest edge).
+inline bool is_edge_on(const Corners& c) {
+  const glm::dvec3 ab = c[1] - c[0], ac = c[2] - c[0];
+  const double volume = glm::dot(c[0], glm::cross(ab, ac));
+  const double distance2 = std::max({glm::dot(c[0], c[0]), glm::dot(c[1], c[1]), glm::dot(c[2], c[2])});
+  const double edge2 = std::max(glm::dot(ab, ab), glm::dot(ac, ac));
+  return std::abs(volume) <= 1e-15 * distance2 * std::sqrt(edge2);
+}
+
+/// The surfaces of a scene, before any rounding.
+struct Triangles {
+  std::vector<glm::vec3> positions;  ///< world space [m]
+  std::vector<glm::uvec3> indices;
+
+  std::size_t count() const { return indices.size(); }
+
+  /// @param origin world space [m]
+  Corners around(const glm::dvec3& origin, std::uint32_t triangle) const {
+    const glm::uvec3& corner = indices[triangle];
+    return {glm::dvec3(positions[corner.x]) - origin, glm::dvec3(positions[corner.y]) - origin,
+            glm::dvec3(positions[corner.z]) - origin};
+  }
+
+  /// One flag a triangle: whether it is seen edge-on from there. Empty where none is.
+  std::vector<bool> edge_on_from(const glm::dvec3& origin) const {
+    std::vector<bool> flags;
+    for (std::uint32_t i = 0; i < count(); ++i) {
+      if (!is_edge_on(around(origin, i))) continue;
+      flags.resize(count());
+      flags[i] = true;
+    }
+    return flags;
+  }
+};
+
+}  // namespace airlight::reference

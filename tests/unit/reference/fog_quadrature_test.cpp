@@ -1,0 +1,45 @@
+#include "reference/fog_quadrature.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "support/random.h"
+
+namespace airlight::reference {
+namespace {
+
+/// A view ray up to a random end, or endless.
+ViewRay random_ray(airlight::tests::Random& random) {
+  const double D = random.logarithmic(0.1, 100.0);
+  const double alpha =
+      random.uniform() < 0.5 ? random.uniform(1e-3, std::numbers::pi - 1e-3) : random.logarithmic(1e-4, 1.0);
+  const double end = random.uniform() < 0.5 ? 0.0 : D * random.logarithmic(0.01, 100.0);
+  return make_view_ray({0.0, 0.0, -D}, {std::sin(alpha), 0.0, std::cos(alpha)}, {1.0, 0.0, 0.0}, end, 1e-6);
+}
+
+TEST(FogQuadrature, FourTimesTheNodesChangeNothingBeyondTheBound) {
+  airlight::tests::Random random(1);
+  for (int i = 0; i < 20000; ++i) {
+    const ViewRay ray = random_ray(random);
+    scene::Medium medium;
+    medium.phase = static_cast<scene::PhaseFunction>(random.bits() % 4);
+    const double sharpness = random.logarithmic(0.01, 1.0);
+    medium.g = static_cast<float>(random.uniform() < 0.5 ? 1.0 - sharpness : sharpness - 1.0);
+    const double sigma_t = random.uniform() < 0.1 ? 0.0 : random.logarithmic(1e-4, 30.0) / ray.D;
+    FogQuadrature fog(ray, sigma_t, medium);
+    const double s = random.uniform(), length = random.logarithmic(1e-4, 1.0);
+    const double from = ray.psi(s), to = std::max(ray.psi(s + length), ray.psi_end);
+    const double usual = fog.integral(from, to, nullptr).r;
+    fog.refine(4);
+    const double fine = fog.integral(from, to, nullptr).r;
+    EXPECT_NEAR(usual, fine, FogQuadrature::k_error * fine)
+        << "D " << ray.D << " psi " << ray.psi_eye << " to " << ray.psi_end << " phase "
+        << static_cast<int>(medium.phase) << " g " << medium.g << " sigma D " << sigma_t * ray.D << " from "
+        << from << " to " << to;
+  }
+}
+
+}  // namespace
+}  // namespace airlight::reference
