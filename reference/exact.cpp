@@ -27,8 +27,9 @@ namespace {
 
 /// Side of a tile [pixels].
 constexpr int k_tile = 8;
-/// A tile of more occluders than this is split: each of its rays goes through all of them.
-constexpr std::size_t k_most_occluders = 8192;
+/// A tile of more occluders than this is split: each of its rays goes through all of them, and they need
+/// memory.
+constexpr std::size_t k_most_occluders = 65536;
 /// How far off a pixel may be, relative to itself: the quadrature, and rounding to single precision.
 constexpr double k_error = FogQuadrature::k_error + 6e-8;
 

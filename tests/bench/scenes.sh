@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# The figures of README.md and docs/figures.md: `tests/bench/scenes.sh accuracy|speed|curves|cost|leaks|causes [OUT]`.
+# The figures of README.md and docs/figures.md: `tests/bench/scenes.sh truth|accuracy|speed|curves|cost|leaks|causes [OUT]`.
 # The paper's Tables 2 to 4 and the bandwidth: build/release/tests/bench/airlight_tables, after ./test.
 #
-# accuracy  512×512 pixels, the default grid, against the converged reference
+# truth     the exact reference against itself refined, against rays, 256×256 and 512×512 pixels
+# accuracy  512×512 pixels, the default grid, against the reference
 # speed     1024×1024 pixels, a shadow cube of 1024², against 512 shadow rays a pixel
 # curves    the error as each count of the grid doubles, the others at their defaults
 # cost      every population × integral × ranges, 1024×1024 pixels: time, error and stages (the paper's Table 1)
@@ -21,6 +22,9 @@ declare -A view=(
     --sigma-s 0.04 --sigma-a 0.01"
   [maple]="$scenes/maple_198k.glb --eye=-2,2,11 --target 0.5,3.8,0 --fov 50 --light-position 1.5,5,-5 --intensity 200
     --sigma-s 0.06 --phase henyey-greenstein --g 0.5"
+  [arboretum]="$scenes/arboretum_1644k.glb --eye=-8,3,34 --target 13,5,10 --fov 55 --light-position 18,9,2
+    --intensity 1500 --sigma-s 0.03"
+  [toroid]=toroid
 )
 compare() { # SCENE OPTIONS...
   local scene=$1
@@ -31,14 +35,19 @@ compare() { # SCENE OPTIONS...
 }
 march=reference-march:rays=single,reference-march:rays=packet
 case ${1:-} in
+  truth)
+    for size in 256x256 512x512; do
+      for scene in window fence sponza maple toroid arboretum; do
+        compare "$scene" --size $size --surface none --frames 1 -o "$out/truth_${size}_$scene" --quiet \
+          --volume "reference:refine=4,reference-sampled:samples=512,reference-sampled:samples=2048,reference-march"
+      done
+    done
+    ;;
   accuracy)
-    for scene in window fence sponza; do
+    for scene in window fence sponza maple; do
       compare "$scene" --size 512x512 -o "$out/accuracy_$scene" \
         --volume vsv,vsv:integral=riemann,vsv:phi-cells=equal --quiet
     done
-    # Foliage needs more samples before the reference stands still.
-    compare maple --size 512x512 -o "$out/accuracy_maple" \
-      --volume vsv,vsv:integral=riemann,vsv:phi-cells=equal --quiet
     ;;
   speed)
     for scene in window sponza maple; do
@@ -94,7 +103,7 @@ case ${1:-} in
     done
     ;;
   *)
-    echo "usage: tests/bench/scenes.sh accuracy|speed|curves|cost|leaks|causes [OUT]" >&2
+    echo "usage: tests/bench/scenes.sh truth|accuracy|speed|curves|cost|leaks|causes [OUT]" >&2
     exit 2
     ;;
 esac
