@@ -30,7 +30,7 @@ compare() { # SCENE OPTIONS...
   local scene=$1
   shift
   # shellcheck disable=SC2086  # a view is several words
-  ./run compare ${view[$scene]} "$@"
+  ./run compare ${view[$scene]} --cache "$out/truth" "$@"
   echo
 }
 march=reference-march:rays=single,reference-march:rays=packet

@@ -37,7 +37,7 @@ TEST_P(AirlightTruth, MeanAndPercentilesAgree) {
   ASSERT_EQ(red.size(), expected.size());
 
   RecordProperty("mean_ratio", std::to_string(mean(red) / mean(expected)));
-  EXPECT_NEAR(mean(red) / mean(expected), 1.0, 0.005);
+  EXPECT_NEAR(mean(red) / mean(expected), 1.0, 0.001);
   const std::pair<int, const char*> percents[] = {{10, "p10"}, {25, "p25"}, {50, "p50"},
                                                   {75, "p75"}, {90, "p90"}, {99, "p99"}};
   for (const auto& [percent, name] : percents) {
