@@ -7,10 +7,16 @@ namespace airlight::epipolar {
 PopulateConservative::PopulateConservative(const Resolution& resolution)
     : triangles_(resolution, k_populate_conservative_comp) {}
 
-void PopulateConservative::run(const Grid& grid, const frame::SceneBuffers& scene) {
+void PopulateConservative::run(const Grid& grid, const frame::SceneBuffers& scene,
+                               std::span<const std::uint32_t> left_out) {
   grid.first_shadowed().clear(static_cast<std::uint32_t>(grid.resolution().alpha));
   scene.bind_samplers();
-  triangles_.run(0, scene.triangle_count());
+  std::uint32_t first = 0;
+  for (const std::uint32_t hole : left_out) {
+    triangles_.run(first, hole - first);
+    first = hole + 1;
+  }
+  triangles_.run(first, scene.triangle_count() - first);
 }
 
 }  // namespace airlight::epipolar

@@ -18,7 +18,8 @@ class PopulateConservative {
   explicit PopulateConservative(const Resolution& resolution);
 
   /// Overwrites `grid.first_shadowed()`. The view's block and the grid are bound.
-  void run(const Grid& grid, const frame::SceneBuffers& scene);
+  /// @param left_out triangle numbers, sorted
+  void run(const Grid& grid, const frame::SceneBuffers& scene, std::span<const std::uint32_t> left_out);
 
  private:
   TriangleQueue triangles_;

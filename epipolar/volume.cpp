@@ -176,7 +176,7 @@ shaders::EpipolarBlock ShadowVolume::find_ranges(const frame::FrameInputs& input
 void ShadowVolume::fill_unscanned(const frame::FrameInputs& inputs, bool with_bits) {
   if (populate_screen_space_) populate_screen_space_->run(inputs, grid_);
   if (populate_shadow_map_) populate_shadow_map_->run(grid_, inputs.shadow_map());
-  if (populate_conservative_) populate_conservative_->run(grid_, inputs.scene);
+  if (populate_conservative_) populate_conservative_->run(grid_, inputs.scene, inputs.triangles_at_light());
   if (with_bits && !populate_screen_space_) {
     grid_.bits().clear();
     dispatch_planes(scatter_, grid_, options_.resolution.phi / 32);

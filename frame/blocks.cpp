@@ -7,7 +7,8 @@ namespace airlight::frame {
 float near_depth(const SceneBuffers& scene, glm::dvec3 apex, double eye_light_distance) {
   // The nearest point may lie in the corner of a cube face, where depth is 1/√3 of distance.
   const double nearest = 0.5 * scene.distance_to(apex);
-  return static_cast<float>(std::clamp(nearest, 1e-4 * eye_light_distance, eye_light_distance));
+  return static_cast<float>(
+      std::clamp(nearest, 0.5 * SceneBuffers::k_touch * eye_light_distance, eye_light_distance));
 }
 
 shaders::CameraBlock camera_block(const scene::CameraFrame& camera, glm::ivec2 image_size, float near) {

@@ -18,9 +18,8 @@ static_assert(sizeof(CameraBlock) == 80 && sizeof(LightBlock) == 32 && sizeof(Me
 namespace airlight::frame {
 
 /// The depth [m] at which a pyramid at `apex`, the eye or the light, starts to order surfaces. As large as
-/// the scene allows, because depth is interpolated on triangles that reach up to it; not smaller than 1e-4 of
-/// the distance between eye and light, where single precision on a triangle that passes the apex would leave
-/// no digits.
+/// the scene allows, because depth is interpolated on triangles that reach up to it; not smaller than half of
+/// SceneBuffers::k_touch of the distance between eye and light, since nothing nearer is drawn.
 float near_depth(const SceneBuffers& scene, glm::dvec3 apex, double eye_light_distance);
 
 // The uniform blocks of a frame.

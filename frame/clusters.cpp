@@ -34,7 +34,7 @@ double distance_to_segment(glm::dvec3 p, glm::dvec3 a, glm::dvec3 b) {
 
 double distance_to_triangle(glm::dvec3 p, const std::array<glm::dvec3, 3>& t) {
   const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
-  bool inside = true;
+  bool inside = glm::length(normal) > 0.0;  // three corners in line have edges alone
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < 3; ++i) {
     const glm::dvec3 a = t[i], b = t[(i + 1) % 3];
@@ -112,6 +112,20 @@ double distance_to_geometry(const scene::Geometry& geometry, const Clusters& clu
     }
   }
   return nearest;
+}
+
+std::vector<std::uint32_t> triangles_within(const scene::Geometry& geometry, const Clusters& clusters,
+                                            glm::dvec3 point, double reach) {
+  std::vector<std::uint32_t> places;
+  for (const Cluster& cluster : clusters.clusters) {
+    if (distance_to_box(point, cluster.box) > reach) continue;
+    const std::uint32_t end = cluster.first_triangle + cluster.triangle_count;
+    for (std::uint32_t place = cluster.first_triangle; place < end; ++place) {
+      if (distance_to_triangle(point, corners(geometry, clusters.order[place])) <= reach)
+        places.push_back(place);
+    }
+  }
+  return places;
 }
 
 }  // namespace airlight::frame

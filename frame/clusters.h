@@ -40,4 +40,9 @@ bool may_touch(const Pyramid& pyramid, const scene::Box& box);
 /// triangle decides; +Inf without triangles.
 double distance_to_geometry(const scene::Geometry& geometry, const Clusters& clusters, glm::dvec3 point);
 
+/// The triangles no farther than `reach` [m] from a point, by their places in the order of the clusters,
+/// sorted.
+std::vector<std::uint32_t> triangles_within(const scene::Geometry& geometry, const Clusters& clusters,
+                                            glm::dvec3 point, double reach);
+
 }  // namespace airlight::frame

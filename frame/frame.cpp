@@ -101,16 +101,17 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
 
   // What the camera sees.
   timer.time("surfaces", [&] {
-    const float near = near_depth(scene, camera.eye, distance_to_nearest_light(view));
+    const double distance = distance_to_nearest_light(view);
+    const float near = near_depth(scene, camera.eye, distance);
     write_block(camera_block_, camera_block(camera, view.size, near), shaders::k_camera_block);
     write_block(medium_block_, medium_block(view.medium), shaders::k_medium_block);
-    gbuffer_->draw(scene, camera);
+    gbuffer_->draw(scene, camera, scene.triangles_at(camera.eye, distance));
   });
 
   // What each light adds.
   for (std::size_t i = 0; i < view.lights.size(); ++i) {
     const scene::Light& light = view.lights[i];
-    resources_.begin_light(light);
+    resources_.begin_light(light, camera.eye);
     const float near = near_depth(scene, light.position, glm::distance(light.position, camera.eye));
     write_block(light_block_, light_block(light, camera.eye, near, resources_.shadow_map_size()),
                 shaders::k_light_block);

@@ -18,7 +18,8 @@ GBuffer::GBuffer(glm::ivec2 size)
           gpu::Pipeline::graphics({.vertex = k_gbuffer_vert, .fragment = k_gbuffer_frag}, k_reversed_depth)),
       resolve_(gpu::Pipeline::compute(k_surfaces_comp)) {}
 
-void GBuffer::draw(const SceneBuffers& scene, const scene::CameraFrame& camera) const {
+void GBuffer::draw(const SceneBuffers& scene, const scene::CameraFrame& camera,
+                   std::span<const std::uint32_t> left_out) const {
   framebuffer_.clear();
   draw_.draw(framebuffer_, [&] {
     scene.draw({.apex = camera.eye,
@@ -26,7 +27,8 @@ void GBuffer::draw(const SceneBuffers& scene, const scene::CameraFrame& camera) 
                 .up = camera.up,
                 .forward = camera.forward,
                 .half_width = camera.half_width,
-                .half_height = camera.half_height});
+                .half_height = camera.half_height},
+               left_out);
   });
   scene.bind_samplers();
   triangles_.bind_sampler(shaders::k_triangle_unit);

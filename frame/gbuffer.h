@@ -13,7 +13,9 @@ class GBuffer {
   explicit GBuffer(glm::ivec2 size);
 
   /// Draws the scene. The camera's block is bound.
-  void draw(const SceneBuffers& scene, const scene::CameraFrame& camera) const;
+  /// @param left_out triangle numbers, sorted
+  void draw(const SceneBuffers& scene, const scene::CameraFrame& camera,
+            std::span<const std::uint32_t> left_out) const;
 
   const gpu::Texture& triangles() const { return triangles_; }  ///< r32ui: number + 1, 0 for none
 

@@ -31,6 +31,7 @@ struct FrameInputs {
 
   // What is made when it is first asked for: see Resources.
   const ShadowMap& shadow_map() const { return resources.shadow_map(timer); }
+  const std::vector<std::uint32_t>& triangles_at_light() const { return resources.triangles_at_light(); }
   const gpu::Texture* light_texture() const { return resources.light_texture(); }
   const scene::Components& components() const { return resources.components(timer); }
 };

@@ -17,8 +17,9 @@ void Resources::begin_frame() {
   shadow_map_is_used_ = false;
 }
 
-void Resources::begin_light(const scene::Light& light) {
+void Resources::begin_light(const scene::Light& light, glm::dvec3 eye) {
   light_ = &light;
+  triangles_at_light_ = scene_.triangles_at(light.position, glm::distance(light.position, eye));
   shadow_map_is_drawn_ = false;
   if (light.texture == light_texture_) return;
   light_texture_ = light.texture;
@@ -42,7 +43,7 @@ void Resources::begin_light(const scene::Light& light) {
 const ShadowMap& Resources::shadow_map(gpu::StageTimer& timer) {
   if (!shadow_map_) shadow_map_.emplace(context_, shadow_map_size_);
   if (!shadow_map_is_drawn_) {
-    timer.time("shadow_map", [&] { shadow_map_->draw(scene_, light_->position); });
+    timer.time("shadow_map", [&] { shadow_map_->draw(scene_, light_->position, triangles_at_light_); });
     shadow_map_is_drawn_ = shadow_map_is_used_ = true;
   }
   return *shadow_map_;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "frame/scene_buffers.h"
 #include "frame/shadow_map.h"
@@ -31,8 +32,12 @@ class Resources {
   void begin_frame();
 
   /// What is asked for from now on is this light's. Its block is bound.
+  /// @param eye world space [m]
   /// @throws scene::Error (driver) for a texture over the driver's limit
-  void begin_light(const scene::Light& light);
+  void begin_light(const scene::Light& light, glm::dvec3 eye);
+
+  /// The triangles on which the light lies, which cast no shadow: see SceneBuffers::triangles_at.
+  const std::vector<std::uint32_t>& triangles_at_light() const { return triangles_at_light_; }
 
   /// Stage `shadow_map`. @throws scene::Error (driver) for one over the driver's limit
   const ShadowMap& shadow_map(gpu::StageTimer& timer);
@@ -57,8 +62,9 @@ class Resources {
 
   std::optional<ShadowMap> shadow_map_;
   const scene::Light* light_ = nullptr;  ///< whose things are asked for
-  bool shadow_map_is_drawn_ = false;     ///< for that light
-  bool shadow_map_is_used_ = false;      ///< in this frame
+  std::vector<std::uint32_t> triangles_at_light_;
+  bool shadow_map_is_drawn_ = false;  ///< for that light
+  bool shadow_map_is_used_ = false;   ///< in this frame
 
   std::shared_ptr<const scene::LightTexture> light_texture_;  ///< the one on the GPU
   gpu::Texture light_texture_texels_;

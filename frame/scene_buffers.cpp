@@ -2,6 +2,7 @@
 
 #include "frame/blocks.h"
 
+#include <algorithm>
 #include <atomic>
 
 #include <epoxy/gl.h>
@@ -68,7 +69,17 @@ void SceneBuffers::bind_samplers() const {
   material_texels_.bind_sampler(shaders::k_materials_unit);
 }
 
-void SceneBuffers::draw(const Pyramid& pyramid) const {
+void SceneBuffers::draw_triangles(std::uint32_t first, std::uint32_t end) const {
+  if (first == end) return;
+  const auto offset = static_cast<std::uintptr_t>(first) * sizeof(glm::uvec3);
+  glDisableVertexArrayAttrib(vertex_array_.get(), 1);
+  glVertexAttribI1ui(1, first);
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * (end - first)), GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(offset));
+  glEnableVertexArrayAttrib(vertex_array_.get(), 1);
+}
+
+void SceneBuffers::draw(const Pyramid& pyramid, std::span<const std::uint32_t> left_out) const {
   glBindVertexArray(vertex_array_.get());
   const auto& clusters = clusters_.clusters;
   for (std::size_t i = 0; i < clusters.size();) {
@@ -80,7 +91,18 @@ void SceneBuffers::draw(const Pyramid& pyramid) const {
     std::uint32_t triangles = 0;
     for (; i < clusters.size() && may_touch(pyramid, clusters[i].box); ++i)
       triangles += clusters[i].triangle_count;
-    const auto offset = static_cast<std::uintptr_t>(clusters[first].first_triangle) * sizeof(glm::uvec3);
+    std::uint32_t begin = clusters[first].first_triangle;
+    const std::uint32_t end = begin + triangles;
+    const auto skipped = std::lower_bound(left_out.begin(), left_out.end(), begin);
+    if (skipped != left_out.end() && *skipped < end) {
+      for (auto hole = skipped; hole != left_out.end() && *hole < end; ++hole) {
+        draw_triangles(begin, *hole);
+        begin = *hole + 1;
+      }
+      draw_triangles(begin, end);
+      continue;
+    }
+    const auto offset = static_cast<std::uintptr_t>(begin) * sizeof(glm::uvec3);
     glDrawElementsInstancedBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(3 * triangles), GL_UNSIGNED_INT,
                                         reinterpret_cast<const void*>(offset), 1, static_cast<GLuint>(first));
   }
@@ -88,6 +110,10 @@ void SceneBuffers::draw(const Pyramid& pyramid) const {
 
 double SceneBuffers::distance_to(glm::dvec3 point) const {
   return distance_to_geometry(*geometry_, clusters_, point);
+}
+
+std::vector<std::uint32_t> SceneBuffers::triangles_at(glm::dvec3 apex, double eye_light_distance) const {
+  return triangles_within(*geometry_, clusters_, apex, k_touch * eye_light_distance);
 }
 
 std::int64_t SceneBuffers::bytes() const {

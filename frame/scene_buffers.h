@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "frame/clusters.h"
 #include "gpu/buffer.h"
 #include "gpu/context.h"
@@ -12,6 +15,9 @@ namespace airlight::frame {
 /// order.
 class SceneBuffers {
  public:
+  /// Relative to the distance between eye and light: a few roundings of a position in single precision.
+  static constexpr double k_touch = 1e-6;
+
   /// @throws scene::Error (driver) when a buffer would be larger than the driver allows.
   SceneBuffers(const gpu::Context& context, const scene::Geometry& geometry);
 
@@ -20,10 +26,16 @@ class SceneBuffers {
 
   /// Draws what may lie in the pyramid. Vertex attributes: 0 = world position, 1 = first triangle of the
   /// draw.
-  void draw(const Pyramid& pyramid) const;
+  /// @param left_out triangle numbers, sorted
+  void draw(const Pyramid& pyramid, std::span<const std::uint32_t> left_out = {}) const;
 
   /// See frame::distance_to_geometry.
   double distance_to(glm::dvec3 point) const;
+
+  /// The triangles on which the eye or the light lies, sorted: no farther from it than k_touch. Seen from
+  /// there they are edge-on and hide nothing, but single precision cannot tell on which side of them it is.
+  /// @param apex the eye or the light
+  std::vector<std::uint32_t> triangles_at(glm::dvec3 apex, double eye_light_distance) const;
 
   /// A number that no other scene on the GPU has or had: what is made from one is kept by it.
   std::uint64_t id() const { return id_; }
@@ -31,6 +43,9 @@ class SceneBuffers {
   std::int64_t bytes() const;
 
  private:
+  /// Triangles `first` to `end` − 1.
+  void draw_triangles(std::uint32_t first, std::uint32_t end) const;
+
   const scene::Geometry* geometry_;
   std::uint64_t id_;
   Clusters clusters_;

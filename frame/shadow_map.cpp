@@ -25,7 +25,8 @@ ShadowMap::ShadowMap(const gpu::Context& context, int size) {
       gpu::Pipeline::graphics({.vertex = k_shadow_map_vert, .fragment = k_shadow_map_frag}, k_reversed_depth);
 }
 
-void ShadowMap::draw(const SceneBuffers& scene, glm::dvec3 light) const {
+void ShadowMap::draw(const SceneBuffers& scene, glm::dvec3 light,
+                     std::span<const std::uint32_t> left_out) const {
   for (int face = 0; face < 6; ++face) {
     const gpu::Framebuffer& target = faces_[static_cast<std::size_t>(face)];
     target.clear();
@@ -40,7 +41,8 @@ void ShadowMap::draw(const SceneBuffers& scene, glm::dvec3 light) const {
                   .up = unit((axis + 2) % 3),
                   .forward = forward,
                   .half_width = 1.0,
-                  .half_height = 1.0});
+                  .half_height = 1.0},
+                 left_out);
     });
   }
 }

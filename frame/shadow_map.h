@@ -16,7 +16,8 @@ class ShadowMap {
   ShadowMap(const gpu::Context& context, int size);
 
   /// Draws the scene as seen from `light`, world space. The blocks of camera and light are bound.
-  void draw(const SceneBuffers& scene, glm::dvec3 light) const;
+  /// @param left_out triangle numbers, sorted
+  void draw(const SceneBuffers& scene, glm::dvec3 light, std::span<const std::uint32_t> left_out) const;
 
   /// sampler2DArray; see shaders/frame/shadow_cube.glsl.
   const gpu::Texture& depth() const { return depth_; }

@@ -88,8 +88,10 @@ std::vector<Case> cases() {
       {"plain", [](scene::View&, scene::Geometry&) {}, usual},
       {"light_behind_the_camera", light(0.8, 2.5, 9), usual},
       {"light_on_a_face", light(0.1, 2, 0.2), usual, {}, true},
+      {"light_on_a_face_that_hides_it", light(0.1, 1.3, -0.5), usual, {}, true},
       {"light_on_the_floor", light(-1.1, 0, 1.3), usual, {}, true},
       {"light_on_a_vertex", light(0.5, 2, 0.5), usual, {}, true},
+      {"light_on_an_edge", light(0.5, 1.2, 0.5), usual, {}, true},
       {"light_inside_an_object", light(0.1, 1, 0.2), usual, {}, true},
       {"light_under_the_floor", light(0.3, -0.5, 0.5), usual, {}, true},
       {"light_outside_the_scene", light(30, 40, -20), usual},
@@ -253,7 +255,7 @@ const Choice k_choices[] = {
     // Every voxel that a triangle touches is dark: up to a cell beyond each of its edges, along all three
     // angles.
     {"populate=conservative", [](tests::VsvSettings& s) { s.populate = epipolar::Populate::conservative; },
-     0.012, true},
+     0.012},
     {"populate=screen-space", [](tests::VsvSettings& s) { s.populate = epipolar::Populate::screen_space; },
      0.0, true},
     {"ranges=alpha-phi", [](tests::VsvSettings& s) { s.ranges = epipolar::Ranges::alpha_phi; }},
