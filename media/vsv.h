@@ -31,8 +31,8 @@ struct VsvOptions {
   void fit(const scene::View& view) { volume.fit(view); }
   bool needs_closed_parts() const { return volume.needs_closed_parts(); }
 
-  /// A light textured by direction, unless every sample is looked at: the table depends on α and φ alone, and
-  /// such a light on θ too.
+  /// A phase function whose lobe is too narrow. And a light textured by direction, unless every sample is
+  /// looked at: the table depends on α and φ alone, and such a light on θ too.
   std::optional<frame::Refusal> refusal(const scene::View& view) const;
 };
 
@@ -56,6 +56,7 @@ class Vsv : public frame::Airlight {
   /// What the shaders are specialised for.
   struct Variant {
     std::uint32_t phase, channels, direct, light_textured;
+    bool rough;
     bool operator==(const Variant&) const = default;
   };
   void load(const gpu::Context& context, const Variant& variant);

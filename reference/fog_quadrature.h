@@ -27,6 +27,11 @@ class FogQuadrature {
   /// @param light whose texture belongs under the integral; nullptr for an even light
   glm::dvec3 integral(double psi_from, double psi_to, const LightAlongRay* light) const;
 
+  /// Whether the phase function has a lobe that steps in φ may not resolve.
+  bool has_narrow_lobe() const;
+  /// Whether the midpoint rule follows a narrow lobe over a step [rad] around ψ.
+  bool lobe_is_smooth(double psi, double step) const;
+
  private:
   template <class Value, class Integrand, class Longest>
   Value sum_panels(double psi_from, double psi_to, const Integrand& f, const Longest& longest) const;

@@ -32,11 +32,12 @@ struct EyeAngle {
   float cosine;
 };
 
-// α of a unit view ray (from the eye), kept away from the two singular directions by `least_sine`.
+// α of a unit view ray (from the eye), kept away from the direction to the light by `least_sine`, and from the opposite one,
+// where what depends on α has a limit, by what single precision asks for.
 FUNCTION EyeAngle eye_angle(IN(EpipolarBlock) space, IN(vec3) ray, float least_sine) {
   EyeAngle angle;
-  angle.sine = max(length(cross(space.axis, ray)), least_sine);
   angle.cosine = dot(space.axis, ray);
+  angle.sine = max(length(cross(space.axis, ray)), angle.cosine > 0.0f ? least_sine : min(least_sine, 1e-5f));
   return angle;
 }
 
@@ -57,24 +58,9 @@ FUNCTION Angle phi_at(IN(EpipolarBlock) space, IN(EyeAngle) angle, float t) {
   return angle_of(t * angle.sine, space.distance - t * angle.cosine);
 }
 
-// Inverse of phi_at: distance from the eye of the point at φ, by the law of sines. Needs φ < π − α.
-FUNCTION float distance_from_eye(IN(EpipolarBlock) space, IN(EyeAngle) angle, Angle phi) {
-  return space.distance * sine(phi) / (angle.sine * cosine(phi) + angle.cosine * sine(phi));
-}
-
 // α of the point at distance r from the light on a light ray at φ.
 FUNCTION Angle alpha_at(IN(EpipolarBlock) space, float sin_phi, float cos_phi, float r) {
   return angle_of(r * sin_phi, space.distance - r * cos_phi);
-}
-
-// Unit direction of the light ray (θ, φ).
-FUNCTION vec3 light_ray(IN(EpipolarBlock) space, Angle theta, Angle phi) {
-  return sine(phi) * (cosine(theta) * space.u + sine(theta) * space.f) - cosine(phi) * space.axis;
-}
-
-// Unit direction of the view ray (α, θ).
-FUNCTION vec3 view_ray_of(IN(EpipolarBlock) space, Angle alpha, Angle theta) {
-  return sine(alpha) * (cosine(theta) * space.u + sine(theta) * space.f) + cosine(alpha) * space.axis;
 }
 
 // Length of the path from the light to the eye by way of (α, φ): t + r = D cos((α − φ)/2) / cos((α + φ)/2), which has

@@ -14,35 +14,50 @@ CONST uint k_rayleigh = 1u;
 CONST uint k_henyey_greenstein = 2u;
 CONST uint k_hoffman_preetham = 3u;
 
+CONST float k_deepest = 87.0f;  // optical depth from which on e^−depth is no normal number
+CONST float k_least_psi = 1e-4f;  // [rad]
+CONST int k_most_steps = 64;
+
 FUNCTION float rayleigh_phase(float cosine) { return 3.0f / (16.0f * k_pi) * (1.0f + cosine * cosine); }
 
-FUNCTION float henyey_greenstein_phase(float g, float cosine) {
-  float base = max(1.0f + g * g - 2.0f * g * cosine, 1e-12f);
+// Of the half of the scattering angle. 1 + g² − 2g cos θ is written as a sum of positive terms, which keep their digits at the tip
+// of the lobe.
+FUNCTION float henyey_greenstein_phase(float g, float half_sine, float half_cosine) {
+  float across = g > 0.0f ? half_sine : half_cosine;
+  float base = (1.0f - abs(g)) * (1.0f - abs(g)) + 4.0f * abs(g) * across * across;
   return (1.0f - g * g) / (4.0f * k_pi * base * sqrt(base));
 }
 
-// Phase function [1/sr] of the scattering angle's cosine: 1 where light goes on in its direction. Each integrates to 1 over the
-// sphere.
+FUNCTION bool has_lobe(uint kind) { return kind == k_henyey_greenstein || kind == k_hoffman_preetham; }
+
+// Phase function [1/sr] of the scattering angle, 0 where light goes on in its direction, given by sine and cosine of its half. Each
+// integrates to 1 over the sphere.
 //
 // Hoffman-Preetham is what molecules and haze scatter together: Hoffman and Preetham, "Real-time light-atmosphere interactions
 // for outdoor scenes", Graphics Programming Methods, 2003. Deviation: their Henyey-Greenstein part has the numerator
 // (1 − g)², which integrates to (1 − g)/(1 + g); here it is 1 − g².
-FUNCTION float phase_function(uint kind, IN(MediumBlock) medium, float cosine) {
+FUNCTION float phase_function(uint kind, IN(MediumBlock) medium, float half_sine, float half_cosine) {
+  float cosine = (half_cosine - half_sine) * (half_cosine + half_sine);
   if (kind == k_rayleigh) return rayleigh_phase(cosine);
-  if (kind == k_henyey_greenstein) return henyey_greenstein_phase(medium.g, cosine);
+  if (kind == k_henyey_greenstein) return henyey_greenstein_phase(medium.g, half_sine, half_cosine);
   if (kind == k_hoffman_preetham) {
-    return (1.0f - medium.rayleigh_weight) * henyey_greenstein_phase(medium.g, cosine) +
+    return (1.0f - medium.rayleigh_weight) * henyey_greenstein_phase(medium.g, half_sine, half_cosine) +
            medium.rayleigh_weight * rayleigh_phase(cosine);
   }
   return 0.25f / k_pi;
 }
 
 // e^{−σ_t (t + r)} p(α + φ), one channel a component. `complement` is π − α, from which the scattering angle α + φ is
-// right near π too. 0 from α + φ = π on, where the path is infinite. GLSL lets exp(−x) err by 3 + 2x ulp, which is at most 4e-7 of
-// the integrand without fog.
+// right near π too. 0 from α + φ = π on, where the path is infinite, and where single precision has no such number. GLSL lets
+// exp(−x) err by 3 + 2x ulp, which is at most 4e-7 of the integrand without fog.
 FUNCTION vec3 airlight_integrand(IN(EpipolarBlock) space, IN(MediumBlock) medium, uint kind, Angle complement, Angle phi) {
-  float path = path_length(space, complement, phi);
-  return exp(-min(medium.sigma_t * path, vec3(80.0f))) * phase_function(kind, medium, -cosine(complement - phi));
+  vec3 depth = medium.sigma_t * path_length(space, complement, phi);
+  vec3 transmittance = exp(-min(depth, vec3(k_deepest)));
+  Angle half_from_back = 0.5f * max(complement - phi, Angle(0.0f));
+  float phase = phase_function(kind, medium, cosine(half_from_back), sine_of_quarter(half_from_back));
+  return vec3(depth.x < k_deepest ? transmittance.x : 0.0f, depth.y < k_deepest ? transmittance.y : 0.0f,
+              depth.z < k_deepest ? transmittance.z : 0.0f) *
+         phase;
 }
 
 // ∫ airlight_integrand dφ over a short interval, by the two-point Gauss–Legendre rule.
@@ -53,6 +68,34 @@ FUNCTION vec3 integrate_cell(IN(EpipolarBlock) space, IN(MediumBlock) medium, ui
   return 0.5f * float(to - from) *
          (airlight_integrand(space, medium, kind, complement, middle - offset) +
           airlight_integrand(space, medium, kind, complement, middle + offset));
+}
+
+// How far outwards from φ the two-point rule follows the integrand, which is smooth on every scale but three: the optical depth
+// grows as cot(ψ/2), ψ = π − α − φ; ψ falls to 0, where that is infinite; and a lobe is 1 − |g| wide. What lies within
+// k_least_psi of ψ = 0, or a hundredth of a ray, is one step.
+FUNCTION Angle smooth_length(IN(EpipolarBlock) space, IN(MediumBlock) medium, uint kind, Angle complement, Angle phi) {
+  float psi = max(float(complement - phi), 1e-8f);
+  float sigma = max(medium.sigma_t.x, max(medium.sigma_t.y, medium.sigma_t.z));
+  float half_sine = sine_of_quarter(Angle(0.5f * psi));
+  float growth = 0.5f * sigma * space.distance * sine(complement) / (half_sine * half_sine);  // of the depth, along φ
+  float size = min(0.5f * psi, 1.0f / max(growth, 1e-9f));
+  if (has_lobe(kind)) {
+    float from_tip = medium.g > 0.0f ? k_pi - psi : psi;
+    float width = 1.0f - abs(medium.g);
+    size = min(size, 0.2f * sqrt(from_tip * from_tip + width * width));
+  }
+  return Angle(psi < min(k_least_psi, 0.01f * float(complement)) ? psi : size);
+}
+
+// ∫ airlight_integrand dφ over an interval of any length, in steps that follow it.
+FUNCTION vec3 integrate_run(IN(EpipolarBlock) space, IN(MediumBlock) medium, uint kind, Angle complement, Angle from, Angle to) {
+  vec3 sum = vec3(0.0f);
+  for (int i = 0; i < k_most_steps && from < to; ++i) {
+    Angle next = min(to, from + smooth_length(space, medium, kind, complement, from));
+    sum += integrate_cell(space, medium, kind, complement, from, next);
+    from = next;
+  }
+  return sum;
 }
 
 // What turns the integral over φ into radiance: σ_s I / (D sin α).

@@ -4,9 +4,11 @@
 #include "media/vsv_ray.glsl"
 
 // Airlight from the shadow volume as the paper sums it (Eq. 5), in φ instead of t: the integrand at the centre of every lit
-// cell. A cell counts whole when its centre lies before the end of the ray.
+// cell. A cell counts whole when its centre lies before the end of the ray. Deviation: with k_rough, where the integrand may change
+// within a cell, its integral over what of the cell lies before that end, and the light's colour at the centre.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 4) const uint k_light_textured = 0;
+layout(constant_id = 8) const uint k_rough = 0;
 layout(binding = k_light_texture_unit) uniform sampler2D light_texture;
 
 // What the light radiates along the light ray at φ, relative to its intensity. `outward` is the direction in the plane of the
@@ -36,9 +38,13 @@ void main() {
       uint k = 32u * word + uint(findLSB(lit));
       lit &= lit - 1u;
       float phi = phi_of_cell(ray.cells, float(k) + 0.5);
-      float width = phi_of_cell(ray.cells, float(k + 1u)) - phi_of_cell(ray.cells, float(k));
-      if (phi < ray.phi_end) {
-        sum += width * airlight_integrand(space, medium, k_phase, complement, phi) * colour_at(outward, phi);
+      float from = phi_of_cell(ray.cells, float(k));
+      float to = phi_of_cell(ray.cells, float(k + 1u));
+      if (k_rough != 0u) {
+        to = min(to, ray.phi_end);
+        sum += integrate_run(space, medium, k_phase, complement, from, to) * colour_at(outward, phi);
+      } else if (phi < ray.phi_end) {
+        sum += (to - from) * airlight_integrand(space, medium, k_phase, complement, phi) * colour_at(outward, phi);
       }
     }
   }

@@ -17,7 +17,6 @@ layout(binding = k_table_unit) uniform samplerBuffer table;  // vec2
 // runs both sides of a branch.
 layout(constant_id = 6) const uint k_direct_cells = 0;
 layout(constant_id = 7) const uint k_factored = 0;
-const uint k_direct_parts = 4u;  // of such a cell: on an open ray the integrand falls to 0 within its last one
 
 // Sum of ±S over the changes of visibility of one word, by the two rows. The first change is from light to shadow.
 void add_changes(uint changes, uint first_cell, uint row_start, inout float sign, inout vec2 sum[3]) {
@@ -45,19 +44,19 @@ void main() {
       if ((shadow >> k & 1u) != 0u) continue;
       float from = phi_of_cell(ray.cells, float(k));
       float to = min(phi_of_cell(ray.cells, float(k + 1u)), ray.phi_end);
-      float part = max(to - from, 0.0) / float(k_direct_parts);
-      for (uint i = 0u; i < k_direct_parts; ++i) {
-        integral += integrate_cell(space, medium, k_phase, complement, from + float(i) * part, from + float(i + 1u) * part);
-      }
+      integral += integrate_run(space, medium, k_phase, complement, from, to);
     }
   } else {
-    float row = clamp((ray.alpha - space.alpha_min) / table_row_step(space), 0.0, float(k_table_rows) - 1.001);
+    vec2 range = table_range(space);
+    float row = (table_place(ray.alpha) - range.x) / (range.y - range.x) * (float(k_table_rows) - 1.0);
+    row = clamp(row, 0.0, float(k_table_rows) - 1.001);
     uint row_start = table_index(uint(row), 0u, 0u);
     float blend = row - floor(row);
     vec2 sum[3] = vec2[3](vec2(0.0), vec2(0.0), vec2(0.0));
-    float sign = 1.0;  // + where light ends, − where it begins
+    for (uint channel = 0u; channel < k_channels; ++channel) sum[channel] = texelFetch(table, int(row_start + channel)).xy;
+    float sign = -1.0;  // − where light ends, + where it begins
     float lit_range = 0.0;  // of φ, in any unit
-    float range = 0.0;
+    float all_range = 0.0;
     float word_start = 0.0;  // φ
     uint before = ray.unknown;  // the highest bit of the word before, in every place
     uint carry = 0u;            // the same as a bit; what lies before the first word counts as lit
@@ -73,7 +72,7 @@ void main() {
         float weight = word_end - word_start;
         word_start = word_end;
         lit_range += weight * float(bitCount(~shadow & before_end));
-        range += weight * float(bitCount(before_end));
+        all_range += weight * float(bitCount(before_end));
       } else {
         uint changes = shadow ^ (shadow << 1 | carry);
         carry = shadow >> 31;
@@ -81,19 +80,24 @@ void main() {
       }
     }
     // The ray ends in light: close the last lit run. (Factored, it is the only one.)
-    if (sign > 0.0) {
+    float within = ray.is_open ? 1.0 : clamp(ray.end - float(ray.last_cell), 0.0, 1.0);
+    bool ends_in_light = sign < 0.0 && !ray.is_open;
+    if (ends_in_light) {
       uint entry = row_start + ray.last_cell * k_channels;
-      float within = ray.is_open ? 1.0 : clamp(ray.end - float(ray.last_cell), 0.0, 1.0);
       for (uint channel = 0u; channel < k_channels; ++channel) {
-        sum[channel] += mix(texelFetch(table, int(entry + channel)).xy,
-                            texelFetch(table, int(entry + k_channels + channel)).xy, within);
+        vec2 from = texelFetch(table, int(entry + channel)).xy;
+        sum[channel] -= k_rough != 0u ? from : mix(from, texelFetch(table, int(entry + k_channels + channel)).xy, within);
       }
     }
     for (uint channel = 0u; channel < 3u; ++channel) {
       vec2 rows = sum[min(channel, k_channels - 1u)];
       integral[channel] = mix(rows.x, rows.y, blend);
     }
-    if (k_factored != 0u) integral *= lit_range / range;
+    if (k_rough != 0u && ends_in_light) {
+      integral += integrate_run(space, medium, k_phase, alpha_complement(ray.angle),
+                                phi_of_cell(ray.cells, float(ray.last_cell)), ray.phi_end);
+    }
+    if (k_factored != 0u) integral *= lit_range / all_range;
   }
   vec3 radiance = airlight_scale(space, light, medium, ray.angle.sine) * max(integral, vec3(0.0));
   imageStore(airlight_image, pixel, vec4(radiance, 1.0));

@@ -1,12 +1,26 @@
-// The table S(α, φ) = ∫₀^φ e^{−σ_t (t + r)} p(α + φ) dφ. Columns lie at the boundaries of the grid's cells in φ, rows at
-// equal steps over the frame's range of α. An entry is a vec2: S in its row and in the next one, so that one load serves
-// the interpolation in α. GLSL only; needs resolution.glsl.
+// The table T(α, φ) = ∫_φ^{π − α} e^{−σ_t (t + r)} p(α + φ) dφ, what light comes from beyond φ. Counted from the far end, the
+// dim light from behind a dark stretch is no difference of two large numbers. Past that end T goes on as an odd function: an
+// interpolation between two rows, or two columns, of which one lies beyond meets no kink.
+//
+// Columns lie at the boundaries of the grid's cells in φ, rows equally far apart in table_place over the frame's range of α. An
+// entry is a vec2: T in its row and in the next one, so that one load serves the interpolation in α. GLSL only; needs
+// resolution.glsl.
+#include "media/table_place.glsl"
 layout(constant_id = 4) const uint k_channels = 1;  // 1 where σ_t is grey, else 3
 layout(constant_id = 5) const uint k_table_rows = 256;
 
+// Whether the integrand may change much within a cell.
+layout(constant_id = 8) const uint k_rough = 0;
+
 uint table_index(uint row, uint k, uint channel) { return (row * (k_phi_count + 1u) + k) * k_channels + channel; }
 
-// Distance of the rows in α [rad].
-float table_row_step(EpipolarBlock space) {
-  return space.alpha_step * float(k_alpha_count) / (float(k_table_rows) - 1.0);
+// The places of the first and the last row.
+vec2 table_range(EpipolarBlock space) {
+  return vec2(table_place(space.alpha_min), table_place(space.alpha_min + space.alpha_step * float(k_alpha_count)));
+}
+
+// π − α of a row.
+float row_complement(EpipolarBlock space, uint row) {
+  vec2 range = table_range(space);
+  return complement_at(mix(range.x, range.y, float(row) / (float(k_table_rows) - 1.0)));
 }

@@ -6,7 +6,7 @@
 #include "media/medium.glsl"
 #include "media/vsv_table.glsl"
 
-// One invocation integrates one row outwards.
+// One invocation integrates one row inwards.
 layout(local_size_x = 8) in;
 layout(constant_id = 3) const uint k_phase = 0;
 layout(std430, binding = k_table_storage) buffer Table { float table[]; };
@@ -14,17 +14,28 @@ layout(std430, binding = k_table_storage) buffer Table { float table[]; };
 void main() {
   uint row = gl_GlobalInvocationID.x;
   if (row >= k_table_rows) return;
-  float complement = k_pi - (space.alpha_min + float(row) * table_row_step(space));
+  float complement = row_complement(space, row);
+  float upper_complement = row_complement(space, max(row, 1u) - 1u);
   PhiCells cells = phi_cells();
+  float to = complement;
   vec3 sum = vec3(0.0);
-  for (uint k = 0u; k <= k_phi_count; ++k) {
+  for (uint i = 0u; i <= k_phi_count; ++i) {
+    uint k = k_phi_count - i;
+    float from = phi_of_cell(cells, float(k));
+    vec3 entry = vec3(0.0);
+    if (from < to) {
+      bool is_smooth = k_rough == 0u && to - from < 0.1 * (complement - from);
+      sum += is_smooth ? integrate_cell(space, medium, k_phase, complement, from, to)
+                       : integrate_run(space, medium, k_phase, complement, from, to);
+      to = from;
+      entry = sum;
+    } else if (phi_of_cell(cells, float(k) - 1.0) < upper_complement) {
+      entry = -integrate_run(space, medium, k_phase, complement, max(2.0 * complement - from, 0.0), complement);
+    }
     for (uint channel = 0u; channel < k_channels; ++channel) {
       uint at = 2u * table_index(row, k, channel);
-      table[at] = sum[channel];                                                          // this row
-      if (row > 0u) table[at - 2u * table_index(1u, 0u, 0u) + 1u] = sum[channel];  // its upper neighbour's next row
+      table[at] = entry[channel];                                                    // this row
+      if (row > 0u) table[at - 2u * table_index(1u, 0u, 0u) + 1u] = entry[channel];  // its upper neighbour's next row
     }
-    float from = phi_of_cell(cells, float(k));
-    float to = min(phi_of_cell(cells, float(k + 1u)), complement);
-    if (to > from) sum += integrate_cell(space, medium, k_phase, complement, from, to);
   }
 }

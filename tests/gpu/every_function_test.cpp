@@ -58,12 +58,9 @@ constexpr Function k_functions[] = {
     {"eye_angle.cosine", 1, k_single, 2e-7},  // dot product of unit vectors
     {"alpha_of", 1, k_angle, 4e-7},           // of the two above
     {"alpha_complement", 1, k_angle, 4e-7},
-    {"theta_of", 1, k_angle, 2e-5},  // two dot products over sin α ≥ 0.02
-    {"phi_at", 1, k_angle, 2e-5},    // D − t cos α over a distance to the light ≥ 0.02 D
-    {"distance_from_eye", 1, k_single, 0, Scale::grazing},
-    {"alpha_at", 1, k_angle, 2e-5},   // as phi_at
-    {"light_ray", 3, 0, 3 * k_sine},  // sums of unit vectors, times sines
-    {"view_ray_of", 3, 0, 3 * k_sine},
+    {"theta_of", 1, k_angle, 2e-5},       // two dot products over sin α ≥ 0.02
+    {"phi_at", 1, k_angle, 2e-5},         // D − t cos α over a distance to the light ≥ 0.02 D
+    {"alpha_at", 1, k_angle, 2e-5},       // as phi_at
     {"path_length", 1, 2 * k_single, 0},  // two sines and a quotient
     {"angle_order", 1, 0, 7e-7},          // 1 − x, of a quotient
     {"angle_from_order", 1, k_angle, 3e-7},
@@ -78,6 +75,10 @@ constexpr Function k_functions[] = {
     {"phase hoffman-preetham", 1, k_single, 0},
     {"airlight_integrand", 3, 2 * k_single, 4e-7},  // exp: 3 + 2x ulp of e^−x
     {"integrate_cell", 3, 2 * k_single, 4e-8},      // a tenth of that wide
+    {"smooth_length", 1, 2 * k_single, 0},
+    {"integrate_run", 3, 2 * k_single, 2e-6},  // steps up to half a turn
+    {"table_place", 1, k_single, k_single},
+    {"complement_at", 1, k_single, k_single},
     {"airlight_scale", 3, k_single, 0},
     {"cube_point.face", 1, 0, 0, Scale::one, 20},
     {"cube_point.uv", 2, k_single, 0},

@@ -7,8 +7,9 @@
 #include "epipolar/conservative.glsl"
 #include "media/medium.glsl"
 #include "media/row_end.glsl"
+#include "media/table_place.glsl"
 
-CONST uint k_outputs = 120u;
+CONST uint k_outputs = 119u;
 
 struct Inputs {
   vec4 a;  // axis, D
@@ -106,46 +107,49 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   put(outputs, at, float(alpha_of(angle)));
   put(outputs, at, float(alpha_complement(angle)));
   put(outputs, at, float(theta_of(space, ray)));
-  put(outputs, at, float(phi_at(space, angle, t)));  // 5
+  put(outputs, at, float(phi_at(space, angle, t)));
   EyeAngle given;
   given.sine = sine(alpha);
   given.cosine = cosine(alpha);
-  put(outputs, at, distance_from_eye(space, given, phi));
   put(outputs, at, float(alpha_at(space, sine(phi), cosine(phi), t)));
-  put(outputs, at, light_ray(space, theta, phi));
-  put(outputs, at, view_ray_of(space, alpha, theta));
-  put(outputs, at, path_length(space, complement, phi));  // 14
+  put(outputs, at, path_length(space, complement, phi));
   put(outputs, at, float(angle_order(abs(t * ray.x), t * ray.y)));
   put(outputs, at, float(angle_from_order(Order(0.6f * float(alpha)))));
   put(outputs, at, float(theta_centre(space, uint(100.0f * float(alpha)))));
-  put(outputs, at, float(theta_cell(space, theta, 333u)));  // 18
+  put(outputs, at, float(theta_cell(space, theta, 333u)));
   put(outputs, at, float(alpha_cell(space, alpha, 512u)));
   put(outputs, at, float(first_shadowed_cell(space, alpha, 512u)));
   put(outputs, at, float(grid_word(uint(100.0f * float(alpha)), uint(100.0f * float(phi)), 3u, 512u, 16u)));
-  put(outputs, at, phase_function(k_isotropic, medium, ray.x));  // 22
-  put(outputs, at, phase_function(k_rayleigh, medium, ray.x));
-  put(outputs, at, phase_function(k_henyey_greenstein, medium, ray.x));
-  put(outputs, at, phase_function(k_hoffman_preetham, medium, ray.x));
-  put(outputs, at, airlight_integrand(space, medium, k_henyey_greenstein, complement, phi));  // 26
+  float half_sine = sine_of_quarter(0.5f * phi);
+  float half_cosine = cosine(0.5f * phi);
+  put(outputs, at, phase_function(k_isotropic, medium, half_sine, half_cosine));
+  put(outputs, at, phase_function(k_rayleigh, medium, half_sine, half_cosine));
+  put(outputs, at, phase_function(k_henyey_greenstein, medium, half_sine, half_cosine));
+  put(outputs, at, phase_function(k_hoffman_preetham, medium, half_sine, half_cosine));
+  put(outputs, at, airlight_integrand(space, medium, k_henyey_greenstein, complement, phi));
   put(outputs, at, integrate_cell(space, medium, k_rayleigh, complement, 0.9f * phi, phi));
+  put(outputs, at, float(smooth_length(space, medium, k_henyey_greenstein, complement, phi)));
+  put(outputs, at, integrate_run(space, medium, k_henyey_greenstein, complement, 0.5f * phi, phi));
+  put(outputs, at, table_place(alpha));
+  put(outputs, at, float(complement_at(0.6f * float(alpha))));
   put(outputs, at, airlight_scale(space, light, medium, given.sine));
   CubePoint point = cube_point(any_vector);
-  put(outputs, at, float(point.face));  // 35
+  put(outputs, at, float(point.face));
   put(outputs, at, point.uv.x);
   put(outputs, at, point.uv.y);
   put(outputs, at, point.depth);
   put(outputs, at, cube_direction(point.face, point.uv));
   ivec2 texel = cube_texel(point.uv, 512.0f);
-  put(outputs, at, float(texel.x));  // 42
+  put(outputs, at, float(texel.x));
   put(outputs, at, float(texel.y));
   vec2 centre = cube_texel_centre(texel, 512.0f);
   put(outputs, at, centre.x);
   put(outputs, at, centre.y);
-  put(outputs, at, view_ray(camera, vec2(100.0f * float(alpha), 60.0f * float(phi))));  // 46
+  put(outputs, at, view_ray(camera, vec2(100.0f * float(alpha), 60.0f * float(phi))));
   put(outputs, at, quarter_pixel(camera));
   PRECISE vec3 world = 100.0f * ray + 0.01f * any_vector;
   put(outputs, at, eye_relative(camera, world));
-  put(outputs, at, ray_triangle_distance(l, t * l + space.u, t * l - 2.0f * space.f, 2.0f * t * l - space.u + space.f));  // 54
+  put(outputs, at, ray_triangle_distance(l, t * l + space.u, t * l - 2.0f * space.f, 2.0f * t * l - space.u + space.f));
   PhiCells cells;
   cells.phi_max = complement;
   cells.growth = 1.0f + g;

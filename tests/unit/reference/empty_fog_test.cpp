@@ -33,7 +33,7 @@ std::vector<scene::Medium> media() {
   std::vector<scene::Medium> result{{.sigma_s = glm::vec3(0.1f), .sigma_a = glm::vec3(0.0f)},
                                     {.sigma_s = coloured, .sigma_a = absorbing}};
   result.push_back({.sigma_s = coloured, .sigma_a = absorbing, .phase = PhaseFunction::rayleigh});
-  for (float g : {0.0f, 0.5f, -0.7f, 0.98f}) {
+  for (float g : {0.0f, 0.5f, -0.7f, 0.99f, -0.99f}) {
     result.push_back(
         {.sigma_s = coloured, .sigma_a = absorbing, .phase = PhaseFunction::henyey_greenstein, .g = g});
   }
@@ -107,18 +107,35 @@ TEST(EmptyFog, LightStraightBehindTheCamera) {
 }
 
 TEST(EmptyFog, MarchConvergesToTheIntegralOverDistance) {
-  // The midpoint rule's error falls with the square of the step: 4096 steps leave less than 1e-5 of these.
+  // The midpoint rule's error falls with the square of the step: 4096 steps leave less than 1e-5 of these,
+  // and 5e-4 of a lobe where they begin to resolve it.
   for (const scene::Medium& medium : media()) {
+    const double tolerance = std::abs(medium.g) > 0.9f ? 5e-4 : 1e-5;
     for (double alpha : {0.3, 2.0, 3.0, std::numbers::pi - 1e-5}) {
-      if (medium.g > 0.9f && alpha < 1.0) continue;  // a lobe that the steps do not resolve
       const scene::View view = one_pixel_view(1.0, alpha, medium);
       const glm::dvec3 expected = airlight_over_distance(view, alpha, 0.0, k_infinity);
       for (RayMode mode : {RayMode::single, RayMode::packet}) {
         const glm::vec3 radiance = Reference({}, view).march(4096, mode).radiance[0];
         for (int channel = 0; channel < 3; ++channel) {
-          EXPECT_NEAR(static_cast<double>(radiance[channel]) / expected[channel], 1.0, 1e-5)
+          EXPECT_NEAR(static_cast<double>(radiance[channel]) / expected[channel], 1.0, tolerance)
               << describe(medium, 1.0, alpha) << ", channel " << channel;
         }
+      }
+    }
+  }
+}
+
+TEST(EmptyFog, AMarchOfFewStepsDoesNotMissANarrowLobe) {
+  for (float g : {0.95f, -0.95f, 0.99f, -0.99f}) {
+    for (double alpha : {0.003, 0.03}) {
+      const scene::Medium medium{
+          .sigma_s = glm::vec3(0.1f), .phase = PhaseFunction::henyey_greenstein, .g = g};
+      const scene::View view = one_pixel_view(5.0, alpha, medium);
+      const glm::dvec3 expected = airlight_over_distance(view, alpha, 0.0, k_infinity);
+      for (int steps : {5, 64, 512}) {
+        const glm::vec3 radiance = Reference({}, view).march(steps, RayMode::packet).radiance[0];
+        EXPECT_NEAR(static_cast<double>(radiance.x) / expected.x, 1.0, 2e-3)
+            << describe(medium, 5.0, alpha) << steps;
       }
     }
   }

@@ -109,7 +109,8 @@ TEST(EyeAngle, StaysAQuarterPixelOffTheAxis) {
   const float quarter = 1e-3f;
   for (float offset : {0.0f, 1e-6f, 9e-4f}) {
     EXPECT_EQ(eye_angle(space, glm::normalize(glm::vec3(offset, 0, 1)), quarter).sine, quarter);
-    EXPECT_EQ(eye_angle(space, glm::normalize(glm::vec3(offset, 0, -1)), quarter).sine, quarter);
+    EXPECT_LE(eye_angle(space, glm::normalize(glm::vec3(offset, 0, -1)), quarter).sine,
+              std::max(offset, 1e-5f));
   }
   EXPECT_FLOAT_EQ(number(alpha_of(eye_angle(space, {0, 0, 1}, quarter))), quarter);
   EXPECT_NEAR(eye_angle(space, glm::normalize(glm::vec3(2e-3f, 0, 1)), quarter).sine, 2e-3f, 1e-8f);
@@ -121,6 +122,12 @@ TEST(Theta, GrowsFromUTowardsF) {
   EXPECT_NEAR(exact(theta_of(space, space.f)), 0.5 * k_pi_exactly, k_single);
   EXPECT_NEAR(std::abs(exact(theta_of(space, -space.u))), k_pi_exactly, k_single);
   EXPECT_NEAR(exact(theta_of(space, -space.f)), -0.5 * k_pi_exactly, k_single);
+}
+
+/// Unit vector at an angle from the axis, in the half-plane at θ.
+glm::vec3 direction_at(const EpipolarBlock& space, double angle, double theta) {
+  const glm::dvec3 outward = std::cos(theta) * glm::dvec3(space.u) + std::sin(theta) * glm::dvec3(space.f);
+  return glm::vec3(std::cos(angle) * glm::dvec3(space.axis) + std::sin(angle) * outward);
 }
 
 TEST(Theta, IsZeroOnTheAxis) {
@@ -135,25 +142,19 @@ TEST(Theta, DoesNotDependOnWhereInTheHalfPlaneAVectorPoints) {
   for (int i = 0; i < 10000; ++i) {
     const EpipolarBlock space = make_space(random.direction(), 1.0);
     const Angle theta = single(random.uniform(-3.14, 3.14));
-    const Angle alpha = single(random.uniform(0.01, 3.13)), phi = alpha;
+    const double angle = random.uniform(0.01, 3.13);
     // 1/sin α magnifies the rounding of the vector's components.
-    const double tolerance = 4e-7 / std::sin(exact(alpha));
-    EXPECT_NEAR(exact(theta_of(space, view_ray_of(space, alpha, theta))), exact(theta), tolerance) << alpha;
-    EXPECT_NEAR(exact(theta_of(space, light_ray(space, theta, phi))), exact(theta), tolerance);
+    const double tolerance = 4e-7 / std::sin(angle);
+    EXPECT_NEAR(exact(theta_of(space, direction_at(space, angle, exact(theta)))), exact(theta), tolerance)
+        << angle;
   }
 }
 
-TEST(Theta, TheTwoSidesOfTheSeamMeet) {
+TEST(Theta, KeepsItsDigitsOnBothSidesOfTheSeam) {
   const EpipolarBlock space = make_space(glm::normalize(glm::dvec3(3, -1, 2)), 1.0);
-  for (const Angle alpha : {Angle(0.1f), Angle(1.5f), Angle(3.0f)}) {
-    const glm::vec3 below = view_ray_of(space, alpha, -k_half_turn),
-                    above = view_ray_of(space, alpha, k_half_turn);
-    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(below[axis], above[axis], 3e-7f);
-  }
-  for (const Angle offset : {Angle(1e-3f), Angle(1e-5f)}) {
-    for (const Angle theta : {k_half_turn - offset, offset - k_half_turn}) {
-      EXPECT_NEAR(exact(theta_of(space, view_ray_of(space, Angle(1.0f), theta))), exact(theta), k_single);
-    }
+  for (double offset : {1e-3, 1e-5}) {
+    for (double theta : {k_pi_exactly - offset, offset - k_pi_exactly})
+      EXPECT_NEAR(exact(theta_of(space, direction_at(space, 1.0, theta))), theta, k_single);
   }
 }
 
@@ -199,14 +200,14 @@ TEST(Phi, KeepsAllDigitsCloseToTheEye) {
   }
 }
 
-TEST(Phi, AndTheDistanceFromTheEyeAreInverse) {
+TEST(Phi, IsTheInverseOfTheDistanceByTheLawOfSines) {
   Random random(4);
   for (int i = 0; i < 50000; ++i) {
     const EpipolarBlock space = make_space({0, 0, 1}, random.logarithmic(0.1, 100.0));
     const double alpha = random.uniform(1e-3, k_pi_exactly - 1e-3);
     const EyeAngle angle = make_angle(alpha);
     const double phi = (k_pi_exactly - alpha) * random.uniform(1e-4, 0.99);
-    const float t = distance_from_eye(space, angle, single(phi));
+    const auto t = static_cast<float>(exact(space.distance) * std::sin(phi) / std::sin(alpha + phi));
     // Where the rays are nearly parallel, or the point is near the light, t magnifies the rounding of φ:
     // dt/dφ = r²/(D sin α), dφ/dt = D sin α / r².
     const double r = exact(space.distance) * std::sin(alpha) / std::sin(alpha + phi);
@@ -214,20 +215,6 @@ TEST(Phi, AndTheDistanceFromTheEyeAreInverse) {
     EXPECT_NEAR(exact(phi_at(space, angle, t)), phi,
                 k_single * phi + 2e-7 * (exact(t) + exact(space.distance) + slope) / slope)
         << alpha;
-    // The law of sines.
-    const double law = exact(space.distance) * std::sin(phi) / std::sin(alpha + phi);
-    EXPECT_NEAR(exact(t) / law, 1.0, k_single + 4e-7 / std::sin(alpha + phi) + 1e-7 * slope / law);
-  }
-}
-
-TEST(Phi, LawOfSinesHolds) {
-  const EpipolarBlock space = make_space({0, 0, 1}, 3.0);
-  for (double alpha : {0.2, 1.0, 2.0}) {
-    for (double share : {0.1, 0.5, 0.9}) {
-      const double phi = share * (k_pi_exactly - alpha);
-      const float t = distance_from_eye(space, make_angle(alpha), single(phi));
-      EXPECT_NEAR(exact(t) / std::sin(phi), 3.0 / std::sin(alpha + phi), 1e-5);
-    }
   }
 }
 
@@ -252,41 +239,6 @@ TEST(AlphaAt, FallsFromPiMinusPhiAtInfinityToZeroAtTheLight) {
     EXPECT_EQ(alpha_at(space, std::sin(phi), std::cos(phi), 0.0f), Angle(0.0f));
     EXPECT_NEAR(exact(alpha_at(space, std::sin(phi), std::cos(phi), 1e8f)), k_pi_exactly - exact(phi),
                 k_single);
-  }
-}
-
-TEST(Rays, TheLightRayAndTheViewRayMeet) {
-  Random random(6);
-  for (int i = 0; i < 20000; ++i) {
-    const EpipolarBlock space = make_space(random.direction(), random.logarithmic(0.1, 100.0));
-    const double alpha = random.uniform(0.05, 3.0), phi = (k_pi_exactly - alpha) * random.uniform(0.02, 0.9);
-    const Angle theta = single(random.uniform(-3.14, 3.14));
-    const double t = exact(space.distance) * std::sin(phi) / std::sin(alpha + phi);
-    const double r = exact(space.distance) * std::sin(alpha) / std::sin(alpha + phi);
-    const glm::dvec3 by_eye = t * glm::dvec3(view_ray_of(space, single(alpha), theta));
-    const glm::dvec3 by_light =
-        exact(space.distance) * glm::dvec3(space.axis) + r * glm::dvec3(light_ray(space, theta, single(phi)));
-    EXPECT_LT(glm::length(by_eye - by_light), k_single * (t + r + exact(space.distance)));
-  }
-}
-
-TEST(Rays, AreUnitVectors) {
-  Random random(7);
-  for (int i = 0; i < 10000; ++i) {
-    const EpipolarBlock space = make_space(random.direction(), 1.0);
-    const Angle theta = single(random.uniform(-3.14, 3.14)), angle = single(random.uniform(0, 3.14));
-    EXPECT_NEAR(glm::length(light_ray(space, theta, angle)), 1.0f, 3e-7f);
-    EXPECT_NEAR(glm::length(view_ray_of(space, angle, theta)), 1.0f, 3e-7f);
-  }
-}
-
-TEST(Rays, PointAlongTheAxisAtTheirEnds) {
-  const EpipolarBlock space = make_space(glm::normalize(glm::dvec3(-1, 2, 0.5)), 1.0);
-  for (int axis = 0; axis < 3; ++axis) {
-    EXPECT_NEAR(light_ray(space, Angle(1.0f), Angle(0.0f))[axis], -space.axis[axis], 1e-7f);
-    EXPECT_NEAR(light_ray(space, Angle(1.0f), k_half_turn)[axis], space.axis[axis], 1e-6f);
-    EXPECT_NEAR(view_ray_of(space, Angle(0.0f), Angle(1.0f))[axis], space.axis[axis], 1e-7f);
-    EXPECT_NEAR(view_ray_of(space, k_half_turn, Angle(1.0f))[axis], -space.axis[axis], 1e-6f);
   }
 }
 
