@@ -1,7 +1,6 @@
 #include "quality/compare.h"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -40,6 +39,7 @@ void compare(const Options& options) {
   // Everything that can be wrong with the command is found before the driver is woken.
   auto volumes = parse_volumes(options, "vsv,vsv:integral=riemann,reference-march");
   auto surfaces = parse_surfaces(options);
+  require_read(options, volumes, surfaces);
   const int shadow_map = shadow_map_size(options);
   const int frames = scene::parse_count("--frames", options.get("frames").value_or("5"));
   std::optional<double> limit;
@@ -61,7 +61,14 @@ void compare(const Options& options) {
   if (json && *json != "-") require_writable(*json);
   if (!options.quiet) say_warnings(subject.scene.report);
 
-  constexpr auto k_not_repeated = std::to_array<std::string_view>({"volume", "surface", "json"});
+  const auto command = [&](const quality::VolumeChoice& volume, const quality::SurfaceChoice& surface) {
+    // What is asked of all pairs, and what this one does not read, is left out.
+    std::vector<std::string> without = {"volume", "surface", "json", "max-error"};
+    for (const auto& option : options.given)
+      if (!quality::is_read(option.first, {&volume, 1}, {&surface, 1})) without.push_back(option.first);
+    return fmt::format("{} --volume {} --surface {}", options.command_line(without),
+                       quality::shell_quote(volume.spec), quality::shell_quote(surface.spec));
+  };
   quality::Comparison comparison;
   {
     ProgressLine progress(options.quiet);
@@ -77,7 +84,7 @@ void compare(const Options& options) {
                                             .directory = folder,
                                             .cache = options.get("cache").value_or(""),
                                             .debug = options.debug,
-                                            .command = options.command_line(k_not_repeated),
+                                            .command = command,
                                             .progress = progress.follower()});
   }
 

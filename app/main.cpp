@@ -1,4 +1,5 @@
 #include <new>
+#include <set>
 #include <string>
 
 #include <fmt/format.h>
@@ -39,8 +40,8 @@ CLI::App& add_image_command(CLI::App& app, Options& options, const char* name, c
   return command;
 }
 
-/// Says more than the parser would about a command or an option that does not exist.
-void require_known_words(const CLI::App& app, int argc, char** argv) {
+/// Says more than the parser would about a command line that cannot be.
+void require_sound_words(const CLI::App& app, int argc, char** argv) {
   constexpr const char* k_commands = "use render, compare, scenes or info";
   if (argc < 2) throw Error(ExitCode::usage, "command line", "it names no command", k_commands);
   if (argv[1][0] == '-') {
@@ -49,12 +50,26 @@ void require_known_words(const CLI::App& app, int argc, char** argv) {
   }
   const auto commands = app.get_subcommands([&](const CLI::App* c) { return c->get_name() == argv[1]; });
   if (commands.empty()) throw Error(ExitCode::usage, argv[1], "there is no such command", k_commands);
+  const CLI::App& command = *commands[0];
+  const std::string help = fmt::format("see airlight {} --help", argv[1]);
+  int names_left = command.get_option_no_throw("SCENE") ? 1 : 0;
+  std::set<const CLI::Option*> seen;
   for (int i = 2; i < argc; ++i) {
-    const std::string word = argv[i], name = word.substr(0, word.find('='));
-    if (name.starts_with("--") && name != "--" && !commands[0]->get_option_no_throw(name)) {
-      throw Error(ExitCode::usage, name, fmt::format("{} has no such option", argv[1]),
-                  fmt::format("see airlight {} --help", argv[1]));
+    const std::string word = argv[i];
+    const bool is_long = word.starts_with("--");
+    if (word == "--") return;
+    if (word.size() < 2 || word[0] != '-') {
+      if (names_left-- == 0) throw Error(ExitCode::usage, word, "it is one word too many", help);
+      continue;
     }
+    const std::string name = is_long ? word.substr(0, word.find('=')) : word.substr(0, 2);
+    const CLI::Option* option = command.get_option_no_throw(name);
+    if (!option) throw Error(ExitCode::usage, name, fmt::format("{} has no such option", argv[1]), help);
+    if (!seen.insert(option).second) throw Error(ExitCode::usage, name, "it is given twice", "give it once");
+    const bool takes_value = option->get_items_expected_max() > 0, has_value = word.size() > name.size();
+    if (!takes_value && has_value) throw Error(ExitCode::usage, word, fmt::format("{} takes no value", name));
+    if (takes_value && !has_value && ++i == argc)
+      throw Error(ExitCode::usage, name, fmt::format("its {} is missing", option->get_type_name()), help);
   }
 }
 
@@ -104,7 +119,7 @@ int run(int argc, char** argv) {
   CLI::App& info_command = *app.add_subcommand("info", "tells the driver and its limits");
 
   try {
-    require_known_words(app, argc, argv);
+    require_sound_words(app, argc, argv);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // help or version

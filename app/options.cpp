@@ -105,7 +105,7 @@ std::span<const OptionLine> common_options() {
   return options;
 }
 
-std::string Options::command_line(std::span<const std::string_view> without) const {
+std::string Options::command_line(std::span<const std::string> without) const {
   std::string line = fmt::format("airlight {} {}", command, quality::shell_quote(scene));
   for (const auto& [name, value] : given) {
     if (std::find(without.begin(), without.end(), name) != without.end()) continue;
@@ -148,6 +148,13 @@ std::vector<quality::VolumeChoice> parse_volumes(const Options& options, std::st
 std::vector<quality::SurfaceChoice> parse_surfaces(const Options& options) {
   return quality::parse_surfaces(options.get("surface").value_or("shadow-map"),
                                  common_method_options(options));
+}
+
+void require_read(const Options& options, std::span<const quality::VolumeChoice> volumes,
+                  std::span<const quality::SurfaceChoice> surfaces) {
+  std::vector<std::string> given;
+  for (const auto& option : options.given) given.push_back(option.first);
+  quality::require_read(given, volumes, surfaces);
 }
 
 void fit_to_view(const Options& options, std::vector<quality::VolumeChoice>& volumes,

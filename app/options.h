@@ -37,7 +37,7 @@ struct Options {
   }
 
   /// The command line again, ready for a shell, without -o and the options named.
-  std::string command_line(std::span<const std::string_view> without) const;
+  std::string command_line(std::span<const std::string> without) const;
 };
 
 /// A scene and what one image shows of it.
@@ -57,6 +57,10 @@ std::vector<quality::CommonOption> common_method_options(const Options& options)
 /// The methods of --volume or --surface, or the usual ones.
 std::vector<quality::VolumeChoice> parse_volumes(const Options& options, std::string_view usual);
 std::vector<quality::SurfaceChoice> parse_surfaces(const Options& options);
+
+/// @throws scene::Error (usage) for an option given that is meant for methods and that none of these reads
+void require_read(const Options& options, std::span<const quality::VolumeChoice> volumes,
+                  std::span<const quality::SurfaceChoice> surfaces);
 
 /// Fits methods to the view. Of usual ones, those that cannot show it are left out.
 /// @throws scene::Error (usage) where a method asked for cannot show it

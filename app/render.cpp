@@ -1,4 +1,3 @@
-#include <array>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -27,6 +26,7 @@ void render(const Options& options) {
                 "images are OpenEXR, with a PNG preview beside");
   auto volumes = parse_volumes(options, "vsv,vsv:integral=riemann");
   auto surfaces = parse_surfaces(options);
+  require_read(options, volumes, surfaces);
   const int shadow_map = shadow_map_size(options);
   if (options.get("volume") && volumes.size() != 1)
     throw Error(ExitCode::usage, "--volume", "render takes one method", "compare takes several");
@@ -38,6 +38,7 @@ void render(const Options& options) {
   const quality::SurfaceChoice& surface = surfaces[0];
   std::filesystem::path preview = output;
   preview.replace_extension(".png");
+  if (output.has_parent_path()) require_folder(output.parent_path());
   require_writable(output);
   require_writable(preview);
   if (!options.quiet) say_warnings(subject.scene.report);
@@ -65,7 +66,8 @@ void render(const Options& options) {
   configuration["surface"] = surface.spec;
   for (const auto& [name, value] : volume.values()) configuration[name] = frame::text_of(value);
   for (const auto& [name, value] : surface.values()) configuration["surface." + name] = frame::text_of(value);
-  configuration["shadow-map"] = fmt::format("{}", shadow_map);
+  if (quality::is_read("shadow-map", volumes, surfaces))
+    configuration["shadow-map"] = fmt::format("{}", shadow_map);
   configuration["exposure"] = fmt::format("{}", exposure);
   for (const char* name : {"albedo", "triangles"})
     if (const auto text = options.get(name)) configuration[name] = *text;

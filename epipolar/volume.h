@@ -50,6 +50,7 @@ struct VolumeOptions {
   void fit(const scene::View& view);
 
   bool needs_closed_parts() const { return populate == Populate::screen_space; }
+  bool needs_shadow_map() const { return populate == Populate::shadow_map; }
 };
 
 /// What there is to choose, for the methods that have a volume.

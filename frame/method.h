@@ -58,6 +58,8 @@ struct Method {
   std::function<void(std::any& options, const scene::View& view)> fit;
   /// Whether it takes the scene's parts for solids: where they are not closed, a warning says so.
   std::function<bool(const std::any& options)> needs_closed_parts;
+  /// Whether it asks for the shadow map (FrameInputs::shadow_map).
+  std::function<bool(const std::any& options)> needs_shadow_map;
   std::function<std::unique_ptr<Interface>(const gpu::Context&, const std::any& options)> make;
 
   const Option* find(std::string_view option_name) const {
@@ -80,6 +82,7 @@ struct NoOptions {};
 ///     each other std::optional<Refusal> refusal(const scene::View& view) const;   // else every view can be
 ///     shown void fit(const scene::View& view);                               // else nothing is automatic
 ///     bool needs_closed_parts() const;                                 // else not
+///     bool needs_shadow_map() const;                                   // else not
 ///
 /// @param make std::unique_ptr<Interface>(const gpu::Context&, const Options&)
 template <class Interface, class Options, class Make>
@@ -97,6 +100,7 @@ Method<Interface> describe(std::string_view name, std::string_view description, 
       .refusal = [](const std::any&, const scene::View&) { return std::nullopt; },
       .fit = [](std::any&, const scene::View&) {},
       .needs_closed_parts = [](const std::any&) { return false; },
+      .needs_shadow_map = [](const std::any&) { return false; },
       .make = [make](const gpu::Context& context,
                      const std::any& any) { return make(context, std::any_cast<const Options&>(any)); }};
   if constexpr (requires(const Options& o) { o.validate(); })
@@ -110,6 +114,10 @@ Method<Interface> describe(std::string_view name, std::string_view description, 
   if constexpr (requires(const Options& o) { o.needs_closed_parts(); })
     method.needs_closed_parts = [](const std::any& any) {
       return std::any_cast<const Options&>(any).needs_closed_parts();
+    };
+  if constexpr (requires(const Options& o) { o.needs_shadow_map(); })
+    method.needs_shadow_map = [](const std::any& any) {
+      return std::any_cast<const Options&>(any).needs_shadow_map();
     };
   return method;
 }

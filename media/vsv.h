@@ -30,6 +30,7 @@ struct VsvOptions {
   void validate() const { volume.validate(); }
   void fit(const scene::View& view) { volume.fit(view); }
   bool needs_closed_parts() const { return volume.needs_closed_parts(); }
+  bool needs_shadow_map() const { return volume.needs_shadow_map(); }
 
   /// A phase function whose lobe is too narrow. And a light textured by direction, unless every sample is
   /// looked at: the table depends on α and φ alone, and such a light on θ too.

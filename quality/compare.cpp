@@ -23,10 +23,10 @@ std::string file_stem(std::string spec) {
 }
 
 /// The command that repeats one run, into a folder of its own.
-std::string command_of(const CompareRequest& request, const std::string& name, const std::string& volume,
-                       const std::string& surface) {
-  return fmt::format("{} --volume {} --surface {} -o {}", request.command, shell_quote(volume),
-                     shell_quote(surface), shell_quote((request.directory / name).string()));
+std::string command_of(const CompareRequest& request, const std::string& name, const VolumeChoice& volume,
+                       const SurfaceChoice& surface) {
+  return fmt::format("{} -o {}", request.command(volume, surface),
+                     shell_quote((request.directory / name).string()));
 }
 
 std::map<std::string, std::string> metadata_of(const CompareRequest& request, const std::string& volume,
@@ -46,14 +46,15 @@ std::map<std::string, std::string> metadata_of(const CompareRequest& request, co
 /// @returns the exposure of all previews
 Exposure write_truth(const CompareRequest& request, Measurer& measurer, const Truth& truth) {
   // The colour of surfaces is the compositor's, the rest the rays'.
-  const std::string volume = "reference";
-  frame::FrameImages images = measurer.render(parse_volumes(volume)[0], parse_surfaces("reference")[0]);
+  const VolumeChoice volume = parse_volumes("reference")[0];
+  const SurfaceChoice surface = parse_surfaces("reference")[0];
+  frame::FrameImages images = measurer.render(volume, surface);
   images.distance = truth.distance;
   images.visibility = truth.visibility;
   const Exposure exposure = request.exposure ? Exposure{*request.exposure, false}
                                              : Exposure{automatic_exposure(images.radiance), true};
   auto metadata =
-      metadata_of(request, volume, "reference", command_of(request, "reference", volume, "reference"));
+      metadata_of(request, volume.spec, surface.spec, command_of(request, "reference", volume, surface));
   metadata["airlight.bound"] = fmt::format("{}", truth.figures.bound);
   write_exr(request.directory / "reference.exr", exr_image(images, metadata));
   write_png(request.directory / "reference.png", images.radiance, images.size, exposure.value);
@@ -126,7 +127,7 @@ Comparison compare(gpu::Context& context, const CompareRequest& request) {
       run.is_yardstick = volume.method->traits.is_yardstick;
       run.settings = volume.values();
       run.surface_settings = surface.values();
-      run.command = command_of(request, run.name, volume.spec, surface.spec);
+      run.command = command_of(request, run.name, volume, surface);
       const Measurer::Measurement measured = measurer.measure(volume, surface, request.frames);
       run.cost = measured.cost;
       run.errors = judge(measured.images, truth);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,8 +23,9 @@ struct CompareRequest {
   std::filesystem::path directory;  ///< exists; gets the images
   std::filesystem::path cache;      ///< where the truth is kept; empty for nowhere
   bool debug = false;               ///< write the volume methods' debug images too
-  std::string command;              ///< all of the command but --volume, --surface and -o
-  Progress progress;                ///< may be empty
+  /// All of the command that repeats one pair of methods, but -o.
+  std::function<std::string(const VolumeChoice&, const SurfaceChoice&)> command;
+  Progress progress;  ///< may be empty
 };
 
 /// Measures every volume method with every surface method, judges them by the reference, and writes

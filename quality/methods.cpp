@@ -227,6 +227,49 @@ std::string method_help() {
          "Surface shadow:\n" + help_of(surface_methods());
 }
 
+namespace {
+
+/// Whether a method with these options looks at that option, of those that are meant for all methods.
+template <typename MethodType>
+bool reads(const MethodType& method, const std::any& options, std::string_view name) {
+  return name == "shadow-map" ? method.needs_shadow_map(options) : method.find(name) != nullptr;
+}
+
+bool is_for_methods(std::string_view name) {
+  const auto texts = common_option_texts();
+  return name == "shadow-map" || std::any_of(texts.begin(), texts.end(),
+                                             [&](const CommonOptionText& text) { return text.name == name; });
+}
+
+}  // namespace
+
+bool is_read(std::string_view name, std::span<const VolumeChoice> volumes,
+             std::span<const SurfaceChoice> surfaces) {
+  const auto is_reader = [&](const auto& choice) { return reads(*choice.method, choice.options, name); };
+  return !is_for_methods(name) || std::any_of(volumes.begin(), volumes.end(), is_reader) ||
+         std::any_of(surfaces.begin(), surfaces.end(), is_reader);
+}
+
+void require_read(std::span<const std::string> given, std::span<const VolumeChoice> volumes,
+                  std::span<const SurfaceChoice> surfaces) {
+  for (const std::string& name : given) {
+    if (is_read(name, volumes, surfaces)) continue;
+    std::string chosen, readers;
+    const auto add = [](std::string& list, std::string_view option, std::string_view method) {
+      list += fmt::format("{}{} {}", list.empty() ? "" : ", ", option, method);
+    };
+    for (const VolumeChoice& choice : volumes) add(chosen, "--volume", choice.spec);
+    for (const SurfaceChoice& choice : surfaces) add(chosen, "--surface", choice.spec);
+    for (const VolumeMethod& method : volume_methods())
+      if (reads(method, method.defaults, name)) add(readers, "--volume", method.name);
+    for (const SurfaceMethod& method : surface_methods())
+      if (reads(method, method.defaults, name)) add(readers, "--surface", method.name);
+    throw Error(ExitCode::usage, fmt::format("--{}", name),
+                fmt::format("none of the methods chosen reads it ({})", chosen),
+                fmt::format("leave it out, or choose one that does: {}", readers));
+  }
+}
+
 void warn_of_open_parts(std::span<const VolumeChoice> volumes, std::span<const SurfaceChoice> surfaces,
                         scene::Scene& scene) {
   std::string who;

@@ -84,6 +84,17 @@ std::string method_tables();
 /// One method a line, its options below, as the help shows them.
 std::string method_help();
 
+/// Whether one of the methods looks at an option of the command that is meant for all methods at once: a
+/// common one, or `shadow-map`.
+/// @param name without dashes; every other option counts as looked at
+bool is_read(std::string_view name, std::span<const VolumeChoice> volumes,
+             std::span<const SurfaceChoice> surfaces);
+
+/// @throws scene::Error (usage) for an option that none of the methods looks at, naming those that would
+/// @param given names of the options that the user gave, without dashes
+void require_read(std::span<const std::string> given, std::span<const VolumeChoice> volumes,
+                  std::span<const SurfaceChoice> surfaces);
+
 /// Adds a warning to the scene's report where a method takes its parts for solids and they are not closed.
 void warn_of_open_parts(std::span<const VolumeChoice> volumes, std::span<const SurfaceChoice> surfaces,
                         scene::Scene& scene);

@@ -197,6 +197,22 @@ int nesting(std::string_view text) {
   return deepest;
 }
 
+/// What a file requires changes the meaning of everything else in it, so that it comes first.
+void check_required_extensions(const std::filesystem::path& file, const nlohmann::json& document) {
+  const auto required = document.find("extensionsRequired");
+  if (required == document.end() || !is_kind(*required, Kind::strings, 0)) return;
+  std::string unsupported;
+  for (const nlohmann::json& name : *required)
+    if (name != k_lights)
+      unsupported += fmt::format("{}{}", unsupported.empty() ? "" : ", ", printable(name.get<std::string>()));
+  if (unsupported.empty()) return;
+  const bool are_several = unsupported.find(',') != std::string::npos;
+  throw file_error(file, "",
+                   fmt::format("it requires the extension{} {}, which {} not supported",
+                               are_several ? "s" : "", unsupported, are_several ? "are" : "is"),
+                   are_several ? "export it without them" : "export it without that extension");
+}
+
 void check_json(const std::filesystem::path& file, std::string_view text) {
   if (nesting(text) > k_most_nesting)
     throw file_error(file, "", fmt::format("its JSON is nested more than {} levels deep", k_most_nesting));
@@ -207,6 +223,7 @@ void check_json(const std::filesystem::path& file, std::string_view text) {
     throw file_error(file, "", fmt::format("its JSON is broken: {}", printable(error.what())));
   }
   if (!document.is_object()) throw file_error(file, "", "its JSON is not an object");
+  check_required_extensions(file, document);
   check_properties(file, document, "");
 }
 
@@ -269,7 +286,7 @@ class Importer {
   Importer(const std::filesystem::path& file, const tinygltf::Model& model) : file_(file), model_(model) {}
 
   Scene import() {
-    check_extensions();
+    warn_of_extensions();
     read_materials();
     walk_nodes();
     count(model_.textures.size(), "textures", "surfaces have one colour");
@@ -323,11 +340,7 @@ class Importer {
       scene_.report.warnings.push_back(fmt::format("{} ignored ({}): {}", what.first, number, what.second));
   }
 
-  void check_extensions() {
-    for (const std::string& name : model_.extensionsRequired)
-      if (name != k_lights)
-        throw error("", fmt::format("it requires the extension {}, which is not supported", printable(name)),
-                    "export it without that extension");
+  void warn_of_extensions() {
     for (const std::string& name : model_.extensionsUsed)
       if (name != k_lights)
         scene_.report.warnings.push_back(

@@ -22,7 +22,7 @@ class LightTexture {
  public:
   /// @param name   of the file, as the user wrote it
   /// @param texels RGB without unit, row 0 at the top
-  /// @throws Error (bad_file) naming the texel where one is negative or not finite, or where there is none
+  /// @throws Error (bad_file) naming the texel where one is negative or more than 1e6, or where there is none
   LightTexture(std::string name, glm::ivec2 size, std::vector<glm::vec3> texels);
 
   const std::string& name() const { return name_; }

@@ -34,12 +34,25 @@ void check_fields(ExitCode code, const std::string& where, const Thing& thing) {
   }
 }
 
-void validate(const Light& light, glm::dvec3 eye) {
+/// The largest brightness of fog, σ_s I/D [W/(m² sr)]. What this leaves to the largest number in single
+/// precision is for the peaks towards the light, 1/sin α, and of the phase function.
+constexpr double k_brightest = 1e25;
+
+void validate(const Light& light, const View& view) {
+  const glm::dvec3 eye = view.camera.eye;
   const std::string where = light.name.empty() ? "light" : fmt::format("light '{}'", light.name);
   check_fields(ExitCode::bad_file, where, light);
   if (glm::distance(light.position, eye) < k_shortest_distance)
     throw Error(ExitCode::bad_file, where, "it is at the eye, where the airlight is infinite",
                 "move the light or the camera");
+  const double distance = glm::distance(light.position, eye);
+  const double brightest = largest(light.intensity) * largest(view.medium.sigma_s) / distance;
+  if (brightest > k_brightest)
+    throw Error(
+        ExitCode::usage, where + ", intensity",
+        fmt::format("{:g} W/sr at {:g} m from the eye could overflow single precision, which images are in",
+                    largest(light.intensity), distance),
+        "lower --intensity");
 }
 
 }  // namespace
@@ -96,9 +109,8 @@ void validate(const View& view) {
   camera_frame(view.camera, view.size);
 
   if (view.lights.empty()) throw Error(ExitCode::bad_file, "view", "it has no light");
-  for (const Light& light : view.lights) validate(light, view.camera.eye);
-
   check_fields(ExitCode::bad_file, "medium", view.medium);
+  for (const Light& light : view.lights) validate(light, view);
 }
 
 void override_albedo(Geometry& geometry, glm::vec3 albedo) {

@@ -17,7 +17,11 @@ using enum FieldKind;
 using Texture = std::shared_ptr<const LightTexture>;
 
 constexpr FieldRange k_any;
-constexpr FieldRange k_not_negative = {.lower = 0};
+// Single precision ends at 3e38; surfaces a tenth of a millimetre from the light are to fit as well.
+constexpr FieldRange k_intensity = {
+    .lower = 0, .upper = 1e30f, .why = "more could overflow single precision, which images are in"};
+constexpr FieldRange k_per_metre = {
+    .lower = 0, .upper = 1e6, .why = "a mean free path below a micrometre is no fog"};
 constexpr FieldRange k_positive = {.lower = 0, .is_open = true};
 constexpr FieldRange k_fraction = {.lower = 0, .upper = 1};
 constexpr FieldRange k_reflectance = {.lower = 0, .upper = 1, .why = "a surface reflects at most all light"};
@@ -133,7 +137,8 @@ std::span<const Field<Light>> fields() {
       member_field<&Light::position>({"light", "light-position", vector, "X,Y,Z", "at", "where the light is",
                                       "m", "needs --intensity", "", k_place}),
       member_field<&Light::intensity>({"light", "intensity", colour, "R,G,B", "intensity",
-                                       "radiant intensity of the light", "W/sr", "", "", k_not_negative}),
+                                       "radiant intensity of the light", "W/sr", "at most 1e30", "",
+                                       k_intensity}),
       member_field<&Light::texture>(
           {"light", "light-texture", file, "FILE.exr", "textured by",
            "what the light radiates by direction, relative to its intensity: an equirectangular image, "
@@ -147,9 +152,9 @@ template <>
 std::span<const Field<Medium>> fields() {
   static const std::array table = {
       member_field<&Medium::sigma_s>({"medium", "sigma-s", colour, "R,G,B", "σ_s", "scattering coefficient",
-                                      "1/m", "", "the scene's, 0.1 for a file", k_not_negative}),
+                                      "1/m", "at most 1e6", "the scene's, 0.1 for a file", k_per_metre}),
       member_field<&Medium::sigma_a>({"medium", "sigma-a", colour, "R,G,B", "σ_a", "absorption coefficient",
-                                      "1/m", "", "the scene's, 0 for a file", k_not_negative}),
+                                      "1/m", "at most 1e6", "the scene's, 0 for a file", k_per_metre}),
       Field<Medium>{
           {"medium", "phase", word, "NAME", "phase function", "phase function", "", "",
            "the scene's, isotropic for a file", k_any, phase_names()},
@@ -274,7 +279,9 @@ std::optional<FieldProblem> FieldInfo::problem(const FieldValue& value) const {
     if (is_inside) continue;
     if (kind == vector) return wrong(fmt::format("it is farther than {:g} m from the origin", range.upper));
     if (kind == colour && kept < range.lower) return wrong("it must not be negative");
-    if (kind == colour) return wrong(fmt::format("it is more than {}", range.upper), range.why);
+    if (kind == colour)
+      return wrong(fmt::format("it is more than {:g}{}{}", range.upper, unit.empty() ? "" : " ", unit),
+                   range.why);
     if (std::isinf(range.upper)) return wrong(fmt::format("{} is not positive", parts[i]));
     return wrong(fmt::format("{} is not between {} and {}{}{}", parts[i], range.lower, range.upper,
                              unit.empty() ? "" : " ", unit));

@@ -20,9 +20,9 @@ void ShadowMapLookup::query(const frame::FrameInputs& inputs, const gpu::Texture
 }
 
 frame::SurfaceMethod shadow_map_method() {
-  return frame::describe<frame::SurfaceShadow, frame::NoOptions>(
+  return frame::describe<frame::SurfaceShadow, ShadowMapLookupOptions>(
       "shadow-map", "one look-up of the shadow cube a pixel", {}, {},
-      [](const gpu::Context&, const frame::NoOptions&) { return std::make_unique<ShadowMapLookup>(); });
+      [](const gpu::Context&, const ShadowMapLookupOptions&) { return std::make_unique<ShadowMapLookup>(); });
 }
 
 }  // namespace airlight::surface_shadows

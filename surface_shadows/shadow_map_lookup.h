@@ -17,6 +17,10 @@ class ShadowMapLookup : public frame::SurfaceShadow {
   gpu::Pipeline program_;
 };
 
+struct ShadowMapLookupOptions {
+  bool needs_shadow_map() const { return true; }
+};
+
 frame::SurfaceMethod shadow_map_method();
 
 }  // namespace airlight::surface_shadows

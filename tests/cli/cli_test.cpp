@@ -71,13 +71,19 @@ class CommandLine : public testing::Test {
     return shell(command);
   }
 
-  /// Runs with a small image, grid and shadow map, where `arguments` do not say otherwise.
+  /// Runs with a small image and, where a method has them, a small grid and shadow map, where `arguments` do
+  /// not say otherwise.
   Result small(Words arguments) const {
-    const std::vector<std::pair<std::string, std::string>> defaults = {{"--size", "32x32"},
-                                                                       {"--alpha", "64"},
-                                                                       {"--theta", "128"},
-                                                                       {"--phi", "128"},
-                                                                       {"--shadow-map", "128"}};
+    const auto value_of = [&](const char* option, const char* usual) -> std::string {
+      const auto found = std::find(arguments.begin(), arguments.end(), option);
+      return found == arguments.end() ? usual : *std::next(found);
+    };
+    const std::string methods = value_of("--volume", "vsv") + "," + value_of("--surface", "shadow-map");
+    std::vector<std::pair<std::string, std::string>> defaults = {{"--size", "32x32"}};
+    const bool has_grid = methods.find("vsv") != std::string::npos;
+    if (has_grid) defaults.insert(defaults.end(), {{"--alpha", "64"}, {"--theta", "128"}, {"--phi", "128"}});
+    if (has_grid || methods.find("shadow-map") != std::string::npos)
+      defaults.emplace_back("--shadow-map", "128");
     for (const auto& [name, value] : defaults) {
       if (std::find(arguments.begin(), arguments.end(), name) != arguments.end()) continue;
       arguments.insert(arguments.end(), {name, value});
@@ -199,7 +205,11 @@ INSTANTIATE_TEST_SUITE_P(
                     Misuse{{"render", "cornell", "more", "-o", "x.exr"}, "more"},
                     Misuse{{"--debug"}, "--debug"}, Misuse{{"--light-texture"}, "--light-texture"},
                     Misuse{{"--max-error", "1"}, "--max-error"}, Misuse{{"--frames", "3"}, "--frames"},
-                    Misuse{{"--fov", "30", "--fov", "40"}, "--fov"},
+                    Misuse{{"--fov", "30", "--fov", "40"}, "--fov: it is given twice"},
+                    Misuse{{"--fov", "30", "--fov=40"}, "--fov: it is given twice"},
+                    Misuse{{"render", "cornell", "--quiet", "--quiet"}, "--quiet: it is given twice"},
+                    Misuse{{"-oy.exr"}, "-o: it is given twice"}, Misuse{{"--quiet=no"}, "takes no value"},
+                    Misuse{{"--fov"}, "its DEG is missing"},
                     Misuse{{"compare", "cornell", "--max-error=-1"}, "--max-error"},
                     Misuse{{"compare", "cornell", "--max-error", "nan"}, "--max-error"},
                     Misuse{{"compare", "cornell", "--max-error", "1", "--volume", "none"}, "--max-error"},
@@ -218,8 +228,13 @@ INSTANTIATE_TEST_SUITE_P(
                     Misuse{{"--fov", "0"}, "--fov"}, Misuse{{"--fov", "180"}, "--fov"},
                     Misuse{{"--fov", "40deg"}, "--fov"}, Misuse{{"--fov", ""}, "--fov"},
                     Misuse{{"--intensity", "1,2"}, "--intensity"}, Misuse{{"--intensity=-1"}, "--intensity"},
-                    Misuse{{"--intensity", "1e39"}, "--intensity"}, Misuse{{"--sigma-s", "nan"}, "--sigma-s"},
-                    Misuse{{"--sigma-a=-0.1"}, "--sigma-a"}, Misuse{{"--g", "nan"}, "--g"},
+                    Misuse{{"--intensity", "1e39"}, "--intensity"},
+                    Misuse{{"--intensity", "1e38"}, "--intensity: it is more than 1e+30 W/sr"},
+                    Misuse{{"--sigma-s", "1,2e6,1"}, "--sigma-s: it is more than 1e+06 1/m"},
+                    Misuse{{"--sigma-a", "1e38"}, "--sigma-a: it is more than"},
+                    Misuse{{"--intensity", "1e30"}, "lower --intensity"},
+                    Misuse{{"--sigma-s", "nan"}, "--sigma-s"}, Misuse{{"--sigma-a=-0.1"}, "--sigma-a"},
+                    Misuse{{"--g", "nan"}, "--g"},
                     Misuse{{"--phase", "henyey-greenstein", "--g", "1"}, "--g"},
                     Misuse{{"--phase", "hoffman-preetham", "--rayleigh-weight", "1.1"}, "--rayleigh-weight"},
                     Misuse{{"--phase", "hoffman-preetham", "--rayleigh-weight=-0.1"}, "--rayleigh-weight"},
@@ -253,6 +268,22 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{{"--volume", "vsv:integral=sum"}, "riemann"},
         Misuse{{"--volume", "vsv:shade=1"}, "integral"}));
 
+/// What is meant for methods, where none of those chosen looks at it.
+INSTANTIATE_TEST_SUITE_P(
+    Unread, Usage,
+    testing::Values(
+        Misuse{{"--volume", "reference", "--integral", "table"}, "--integral: none of the methods chosen"},
+        Misuse{{"--volume", "none", "--surface", "vsv", "--integral", "table"},
+               "one that does: --volume vsv"},
+        Misuse{{"--volume", "none", "--alpha", "64"}, "(--volume none, --surface shadow-map)"},
+        Misuse{{"--volume", "none", "--theta", "64"}, "--volume vsv, --surface vsv"},
+        Misuse{{"--volume", "none", "--phi", "128"}, "--phi"},
+        Misuse{{"--volume", "none", "--surface", "none", "--shadow-map", "64"}, "--shadow-map"},
+        Misuse{{"--volume", "vsv:populate=conservative", "--surface", "none", "--shadow-map", "64"},
+               "--shadow-map"},
+        Misuse{{"compare", "cornell", "--volume", "reference-march,reference", "--populate", "conservative"},
+               "--populate"}));
+
 using BadFile = CommandLine;
 
 TEST_F(BadFile, MissingSceneIsNamed) {
@@ -267,8 +298,8 @@ TEST_F(BadFile, MissingSceneIsNamed) {
 TEST_F(BadFile, UnwritableOutputIsFoundBeforeTheWork) {
   // An image of this size would take longer than these tests wait.
   const Words huge = {"--size", "8192x8192", "--volume", "reference"};
-  for (Words words : {Words{"render", "window", "-o", "nosuch/x.exr"},
-                      {"render", "window", "-o", "/dev/null/x.exr"},
+  for (Words words : {Words{"render", "window", "-o", "/dev/null/x.exr"},
+                      {"render", "window", "-o", "/dev/null/folder/x.exr"},
                       {"compare", "window", "-o", "/dev/null/x"},
                       {"compare", "window", "-o", "out", "--json", "no/x"}}) {
     words.insert(words.end(), huge.begin(), huge.end());
@@ -321,6 +352,12 @@ TEST_F(Render, WritesChannelsAndPreview) {
   EXPECT_THAT(names, testing::UnorderedElementsAre("R", "G", "B", "airlight.R", "airlight.G", "airlight.B",
                                                    "surface.Y", "distance.Y"));
   EXPECT_THAT(read_text(file("image.png")), StartsWith("\x89PNG"));
+}
+
+TEST_F(Render, MakesTheFolderOfItsImage) {
+  const Result result = small({"render", "cornell", "-o", "a/b/x.exr"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(fs::exists(file("a/b/x.exr")) && fs::exists(file("a/b/x.png")));
 }
 
 TEST_F(Render, SaysNothingOnStandardOutput) {
@@ -796,6 +833,16 @@ TEST_F(Compare, EachRunNamesTheCommandThatRepeatsIt) {
       Json::parse(read_text(file("out/" + first["name"].get<std::string>() + "/results.json")))["runs"][0];
   EXPECT_EQ(second["settings"], first["settings"]);
   EXPECT_EQ(second["error"], first["error"]);
+}
+
+TEST_F(Compare, CommandsOfRunsHoldWhatTheirMethodsRead) {
+  const Json results = compare({"--volume", "vsv,reference", "--surface", "none", "--max-error", "1"});
+  const std::string vsv = results["runs"][0]["command"], reference = results["runs"][1]["command"];
+  EXPECT_THAT(vsv, HasSubstr("--alpha 64"));
+  EXPECT_EQ(reference.find("--alpha"), std::string::npos) << reference;
+  EXPECT_EQ(shell(quality::shell_quote(AIRLIGHT_BINARY) + reference.substr(8)).exit_code, 0) << reference;
+  const std::string truth = quality::read_exr(file("out/reference.exr")).metadata.at("airlight.command");
+  EXPECT_EQ(shell(quality::shell_quote(AIRLIGHT_BINARY) + truth.substr(8)).exit_code, 0) << truth;
 }
 
 TEST_F(Compare, CommonOptionsAreDefaultsOfEachMethod) {

@@ -65,6 +65,7 @@ TEST(LightTexture, RefusesWhatIsNotFiniteAndNoTexels) {
   const glm::vec3 bad(1, std::numeric_limits<float>::quiet_NaN(), 1);
   EXPECT_THROW(scene::LightTexture("x", {1, 1}, {bad}), scene::Error);
   EXPECT_THROW(scene::LightTexture("x", {0, 1}, {}), scene::Error);
+  EXPECT_THROW(scene::LightTexture("x", {1, 1}, {glm::vec3(1.1e6f)}), scene::Error);
 }
 
 }  // namespace

@@ -643,7 +643,15 @@ TEST_F(ImportGltf, RefusesExtensionsThatItMustUnderstandAndDoesNot) {
   document["extensionsRequired"] = {"KHR_lights_punctual"};
   EXPECT_NO_THROW(load(document));
   document["extensionsRequired"] = {"KHR_lights_punctual", "KHR_draco_mesh_compression"};
-  expect_error(document, "it requires the extension KHR_draco_mesh_compression");
+  expect_error(document, "it requires the extension KHR_draco_mesh_compression, which is not supported");
+  document["extensionsRequired"].push_back("EXT_meshopt_compression");
+  expect_error(document, "the extensions KHR_draco_mesh_compression, EXT_meshopt_compression, which are not");
+
+  // They are named before anything that only they can explain.
+  document["meshes"][0]["primitives"][0].erase("attributes");
+  document["accessors"][0].erase("bufferView");
+  document["buffers"][0]["byteLength"] = -1;
+  expect_error(document, "the extensions KHR_draco_mesh_compression, EXT_meshopt_compression");
 }
 
 // ---- glTF: hostile files ----

@@ -136,7 +136,10 @@ TEST(Fields, RefuseColoursThatCannotBe) {
   EXPECT_THAT(problems("0,1e39,0"), testing::Each("it is too large"));
   EXPECT_THAT(problems("1,0,1"), testing::Each(""));
   EXPECT_EQ(problem<Scene>("albedo", "0,1.1,0"), "it is more than 1");
-  EXPECT_EQ(problem<Medium>("sigma-s", "3e38"), "");
+  EXPECT_EQ(problem<Medium>("sigma-s", "1e6"), "");
+  EXPECT_EQ(problem<Medium>("sigma-s", "3e38"), "it is more than 1e+06 1/m");
+  EXPECT_EQ(problem<Light>("intensity", "1e30"), "");
+  EXPECT_EQ(problem<Light>("intensity", "1e31"), "it is more than 1e+30 W/sr");
 }
 
 TEST(Fields, RefuseNumbersThatSinglePrecisionRoundsOutOfTheirRange) {
