@@ -69,7 +69,7 @@ double sum_lit(const ViewRay& ray, const HalfAngles& half, std::uint32_t lit, do
       for (int i = 0; i < k_count; ++i) {
         const double psi = 2.0 * std::atan2(half.sine[i], half.cosine[i]);
         if ((lit >> i & 1u) && !lobe.lobe_is_smooth(psi, step))
-          value[i] = static_cast<float>(lobe.integral(psi + 0.5 * step, psi - 0.5 * step) / step);
+          value[i] = static_cast<float>(lobe.integral(psi + 0.5 * step, psi - 0.5 * step, nullptr).r / step);
       }
     }
   }

@@ -35,7 +35,7 @@ class EmptyFogBy : public testing::TestWithParam<VsvIntegral> {
  protected:
   /// Expects an error below 1 % of the mean, of any view below.
   void expect_near_truth(const scene::View& view) {
-    const auto truth = reference::Reference({}, view).converged(8);
+    const auto truth = reference::Reference({}, view).exact();
     const auto error =
         tests::error_of(tests::render_vsv({}, view, settings(GetParam())).airlight, truth.radiance);
     EXPECT_LT(error.rrmse, 0.01);
@@ -77,7 +77,7 @@ TEST_P(EmptyFogBy, FollowsExtinctionFromNoneToAll) {
   // And in colours of which one is bright and one is all but black.
   scene::View view = empty_view(k_lights[0]);
   view.medium.sigma_s = {0.1f, 2.0f, 10.0f};
-  const auto truth = reference::Reference({}, view).converged(8);
+  const auto truth = reference::Reference({}, view).exact();
   const auto image = tests::render_vsv({}, view, settings(GetParam())).airlight;
   for (std::size_t i = 0; i < image.size(); ++i) {
     for (int channel = 0; channel < 3; ++channel)
@@ -108,7 +108,7 @@ TEST(HeavyFog, KeepsItsDigitsWhereOnlyWhatLiesFarIsLit) {
   view.camera.target = {3, -1.2, 0};
   view.lights[0].position = {0, 2, 0};
   view.medium.sigma_s = glm::vec3(10.0f);
-  const tests::Truth truth = tests::trace(scene.geometry, view, 256);
+  const tests::Truth truth = tests::trace(scene.geometry, view);
   const auto error = tests::error_of(tests::render_vsv(scene.geometry, view), truth);
   // The shadow's edge is misplaced by up to half a cell of φ, here up to an optical depth of 0.3.
   EXPECT_LT(error.rrmse, 0.15);
@@ -132,7 +132,7 @@ TEST(Lobes, AmongColumns) {
   view.size = {64, 64};
   for (const float g : {0.5f, -0.5f, 0.95f, -0.95f, 0.99f, -0.99f}) {
     view.medium.g = g;
-    const tests::Truth truth = tests::trace(scene.geometry, view, 1024);
+    const tests::Truth truth = tests::trace(scene.geometry, view);
     for (const VsvIntegral integral : {VsvIntegral::table, VsvIntegral::riemann}) {
       const auto error =
           tests::error_of(tests::render_vsv(scene.geometry, view, {.integral = integral}), truth);
