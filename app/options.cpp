@@ -159,12 +159,14 @@ void require_read(const Options& options, std::span<const quality::VolumeChoice>
 
 void fit_to_view(const Options& options, std::vector<quality::VolumeChoice>& volumes,
                  std::vector<quality::SurfaceChoice>& surfaces, Subject& subject) {
-  // A usual method's options are not the user's choice, but for those that the command gives.
-  std::erase_if(volumes, [&](const quality::VolumeChoice& volume) {
+  // A usual method's options are not the user's choice, but for those that the command gives. Where none can
+  // show the view, the first says why.
+  const auto is_refused = [&](const quality::VolumeChoice& volume) {
     const auto refusal = volume.method->refusal(volume.options, subject.view);
     return refusal && !options.get("volume") &&
            !options.get(refusal->where.substr(0, refusal->where.find('=')));
-  });
+  };
+  if (!std::all_of(volumes.begin(), volumes.end(), is_refused)) std::erase_if(volumes, is_refused);
   for (quality::VolumeChoice& volume : volumes) volume.fit(subject.view);
   for (quality::SurfaceChoice& surface : surfaces) surface.fit(subject.view);
   quality::warn_of_open_parts(volumes, surfaces, subject.scene);

@@ -61,7 +61,7 @@ void Vsv::load(const gpu::Context& context, const Variant& variant) {
       gpu::Constant(5, table_rows(variant.rough)),
       gpu::Constant(6, variant.direct),
       gpu::Constant(7, options_.integral == VsvIntegral::factored),
-      gpu::Constant(8, variant.rough)};
+      gpu::Constant(9, variant.rough)};
   phi_growth_ = gpu::Pipeline::compute(k_phi_growth_comp, std::array{grid[0], constants[3]});
   if (options_.integral != VsvIntegral::riemann) {
     build_table_ = gpu::Pipeline::compute(k_vsv_table_build_comp, constants);

@@ -8,7 +8,7 @@
 // within a cell, its integral over what of the cell lies before that end, and the light's colour at the centre.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 4) const uint k_light_textured = 0;
-layout(constant_id = 8) const uint k_rough = 0;
+layout(constant_id = 9) const uint k_rough = 0;
 layout(binding = k_light_texture_unit) uniform sampler2D light_texture;
 
 // What the light radiates along the light ray at φ, relative to its intensity. `outward` is the direction in the plane of the

@@ -10,7 +10,7 @@ layout(constant_id = 4) const uint k_channels = 1;  // 1 where σ_t is grey, els
 layout(constant_id = 5) const uint k_table_rows = 256;
 
 // Whether the integrand may change much within a cell.
-layout(constant_id = 8) const uint k_rough = 0;
+layout(constant_id = 9) const uint k_rough = 0;
 
 uint table_index(uint row, uint k, uint channel) { return (row * (k_phi_count + 1u) + k) * k_channels + channel; }
 

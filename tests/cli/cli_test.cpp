@@ -236,6 +236,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Misuse{{"--sigma-s", "nan"}, "--sigma-s"}, Misuse{{"--sigma-a=-0.1"}, "--sigma-a"},
                     Misuse{{"--g", "nan"}, "--g"},
                     Misuse{{"--phase", "henyey-greenstein", "--g", "1"}, "--g"},
+                    Misuse{{"--phase", "henyey-greenstein", "--g", "-0.999"},
+                           "g = -0.999: the limit is |g| = 0.995"},
                     Misuse{{"--phase", "hoffman-preetham", "--rayleigh-weight", "1.1"}, "--rayleigh-weight"},
                     Misuse{{"--phase", "hoffman-preetham", "--rayleigh-weight=-0.1"}, "--rayleigh-weight"},
                     Misuse{{"--phase", "hoffman-preetham", "--rayleigh-weight", "nan"}, "--rayleigh-weight"},

@@ -161,7 +161,9 @@ TEST_P(Drivers, ShowTheSameImages) {
       100.0 * distance.share);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Drivers, testing::Values("cornell", "window", "spheres --triangles 2000"));
+INSTANTIATE_TEST_SUITE_P(Scenes, Drivers,
+                         testing::Values("cornell --phase henyey-greenstein --g=-0.99", "window",
+                                         "spheres --triangles 2000"));
 
 }  // namespace
 }  // namespace airlight
