@@ -13,9 +13,9 @@ std::span<const float> floats(const std::vector<glm::vec3>& image) {
 
 Errors judge(const frame::FrameImages& images, const Truth& truth) {
   Errors errors;
-  errors.airlight = airlight_error(floats(images.airlight), floats(truth.airlight));
-  errors.same_surface =
-      same_surface_error(floats(images.airlight), images.distance, floats(truth.airlight), truth.distance);
+  errors.airlight = airlight_error(floats(images.airlight), floats(truth.airlight), truth.figures.floor);
+  errors.same_surface = same_surface_error(floats(images.airlight), images.distance, floats(truth.airlight),
+                                           truth.distance, truth.figures.floor);
   for (std::size_t light = 0; light < truth.visibility.size(); ++light) {
     const SurfaceError error =
         surface_error(images.visibility[light], images.distance, truth.visibility[light], truth.distance);

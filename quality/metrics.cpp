@@ -29,12 +29,6 @@ void require_same_length(std::size_t x, std::size_t r) {
                      fmt::format("{} values against {}", x, r), "give both the same size and channels");
 }
 
-/// An error in units of the mean of the reference; what to make of a black reference is in the header.
-double relative(double error, double reference_mean) {
-  if (error == 0.0) return 0.0;
-  return reference_mean != 0.0 ? error / reference_mean : std::numeric_limits<double>::infinity();
-}
-
 /// The smallest value that at least 99 % of the values do not exceed (nearest rank). Reorders the values.
 double percentile_99(std::vector<double>& values) {
   const std::size_t rank = (99 * values.size() + 99) / 100;
@@ -45,7 +39,7 @@ double percentile_99(std::vector<double>& values) {
 
 }  // namespace
 
-AirlightError airlight_error(std::span<const float> x, std::span<const float> r) {
+AirlightError airlight_error(std::span<const float> x, std::span<const float> r, double floor) {
   require_same_length(x.size(), r.size());
   require_finite(x, "image to judge");
   require_finite(r, "reference image");
@@ -63,30 +57,36 @@ AirlightError airlight_error(std::span<const float> x, std::span<const float> r)
     sum_absolute += std::abs(difference);
   }
   const double mean_r = sum_r / count;
+  const bool is_dark = !(mean_r > floor);
+  const auto relative = [&](double error) {
+    return is_dark ? std::numeric_limits<double>::quiet_NaN() : error / mean_r;
+  };
 
   const double epsilon = 1e-2 * mean_r * mean_r;
   double sum_relative_squares = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    if (differences[i] == 0.0) continue;  // 0/0 where the reference is black
+    if (is_dark || differences[i] == 0.0) continue;
     const auto reference = static_cast<double>(r[i]);
     sum_relative_squares += differences[i] * differences[i] / (reference * reference + epsilon);
   }
 
   AirlightError error{};
-  error.bias = relative((sum_x - sum_r) / count, mean_r);
+  error.is_dark = is_dark;
+  error.bias = relative((sum_x - sum_r) / count);
   error.rmse = std::sqrt(sum_squares / count);
-  error.rrmse = relative(error.rmse, mean_r);
-  error.mae = relative(sum_absolute / count, mean_r);
-  error.p99 = relative(percentile_99(differences), mean_r);
-  error.max = relative(*std::max_element(differences.begin(), differences.end()), mean_r);
-  error.relmse = sum_relative_squares / count;
-  error.leaked = relative(0.5 * (sum_absolute + (sum_x - sum_r)) / count, mean_r);
-  error.spurious = relative(0.5 * (sum_absolute - (sum_x - sum_r)) / count, mean_r);
+  error.rrmse = relative(error.rmse);
+  error.mae = relative(sum_absolute / count);
+  error.p99 = relative(percentile_99(differences));
+  error.max = relative(*std::max_element(differences.begin(), differences.end()));
+  error.relmse = is_dark ? std::numeric_limits<double>::quiet_NaN() : sum_relative_squares / count;
+  error.leaked = relative(0.5 * (sum_absolute + (sum_x - sum_r)) / count);
+  error.spurious = relative(0.5 * (sum_absolute - (sum_x - sum_r)) / count);
   return error;
 }
 
 SameSurfaceError same_surface_error(std::span<const float> x, std::span<const float> distance,
-                                    std::span<const float> r, std::span<const float> reference_distance) {
+                                    std::span<const float> r, std::span<const float> reference_distance,
+                                    double floor) {
   require_same_length(x.size(), r.size());
   require_same_length(distance.size(), reference_distance.size());
   const std::size_t channels = distance.empty() ? 0 : x.size() / distance.size();
@@ -103,7 +103,8 @@ SameSurfaceError same_surface_error(std::span<const float> x, std::span<const fl
     }
   }
   if (kept_x.empty()) return error;
-  const AirlightError kept = airlight_error(kept_x, kept_r);
+  const AirlightError kept = airlight_error(kept_x, kept_r, floor);
+  error.is_dark = kept.is_dark;
   error.bias = kept.bias;
   error.rrmse = kept.rrmse;
   error.leaked = kept.leaked;

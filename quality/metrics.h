@@ -5,7 +5,10 @@
 namespace airlight::quality {
 
 /// How far an image is from the reference, over all channels of all pixels. See `airlight_error`.
+///
+/// Where the reference is dark, what is relative to its mean says nothing and is NaN: all but `rmse`.
 struct AirlightError {
+  bool is_dark;  ///< mean(r) is not above the floor
   double bias;   ///< mean(x) / mean(r) − 1
   double rmse;   ///< sqrt(mean((x − r)²)), in the images' unit
   double rrmse;  ///< rmse / mean(r)
@@ -19,24 +22,25 @@ struct AirlightError {
 
 /// Compares two images of the same length, any channel layout.
 /// @param x the image that is judged; @param r the reference
-/// @throws scene::Error (bad_file) when a value is NaN or infinite, or the lengths differ. When mean(r) is 0,
-/// relative figures are 0 for an equal image and +Inf otherwise.
-AirlightError airlight_error(std::span<const float> x, std::span<const float> r);
+/// @param floor the mean of r up to which the reference is dark, in the images' unit
+/// @throws scene::Error (bad_file) when a value is NaN or infinite, or the lengths differ
+AirlightError airlight_error(std::span<const float> x, std::span<const float> r, double floor = 0.0);
 
 /// The airlight's error where both images see the same surface, or both none: distances within 0.1 %. A
 /// rasteriser snaps corners to 1/256 pixel, so a few pixels at silhouettes show another surface than the ray
 /// through their centre hits; their error is not the airlight's, and where a bright background meets a dark
 /// edge it outweighs all others.
 struct SameSurfaceError {
+  bool is_dark;                          ///< as in AirlightError, and
   double bias, rrmse, leaked, spurious;  ///< as in AirlightError, over the pixels that are kept
   std::size_t left_out_pixels;           ///< those that see different surfaces
 };
 
 /// @param x, r images of as many channels a pixel as their lengths tell; @param distance, reference_distance
-/// one a pixel
-/// @throws as airlight_error
+/// one a pixel; @param floor as of airlight_error, which it throws as
 SameSurfaceError same_surface_error(std::span<const float> x, std::span<const float> distance,
-                                    std::span<const float> r, std::span<const float> reference_distance);
+                                    std::span<const float> r, std::span<const float> reference_distance,
+                                    double floor = 0.0);
 
 /// Surface shadows: pixels that hit a surface in both images, and how many of them are lit in one and dark in
 /// the other.

@@ -50,7 +50,7 @@ std::string cell(const std::string& text) {
 }
 
 std::string percent(double value, const char* sign = "") {
-  if (!std::isfinite(value)) return "inf";
+  if (std::isnan(value)) return "dark";
   return *sign ? fmt::format("{:+.3f}", 100.0 * value) : fmt::format("{:.3g}", 100.0 * value);
 }
 
@@ -82,6 +82,9 @@ frames in the next column, after one frame of warm-up. Where the first frame too
 pixel, shows another surface than the reference's ray hits, and how many those are.</dd>
 <dt>rrmse [%]</dt><dd>sqrt(mean((x − r)²)) / mean(r), over all channels of all pixels of the airlight: x this run's, r the reference's.
 “&lt;” marks an error that is not above the bound of the reference's own error.</dd>
+<dt>rmse</dt><dd>sqrt(mean((x − r)²)), of the same.</dd>
+<dt>dark</dt><dd>The reference's mean airlight is not above a millionth of what the same light and medium would give if nothing stood
+in them, or 1e-30 W/(m² sr): an error relative to it would be one of rounding, and is not told.</dd>
 <dt>bias [%]</dt><dd>mean(x) / mean(r) − 1.</dd>
 <dt>mae, p99, max [%]</dt><dd>Mean, 99th percentile and largest value of |x − r|, divided by mean(r).</dd>
 <dt>relmse</dt><dd>mean((x − r)² / (r² + ε)), ε = 0.01 · mean(r)²; no unit.</dd>
@@ -104,11 +107,11 @@ std::string results_rows(const Comparison& comparison) {
             cell(fmt::format("{}", run.cost.frames)) +
             cell(run.march_ratio > 0.0 ? fmt::format("{:.2f}", run.march_ratio) : "–") +
             cell(run.cost.rays > 0 ? fmt::format("{:.2f}", run.cost.mrays_per_s) : "–") +
-            cell(error_text(error.rrmse, comparison.truth.bound)) +
+            cell(fmt::format("{:.3g}", error.rmse)) + cell(error_text(error.rrmse, comparison.truth.bound)) +
             cell(error_text(run.errors.same_surface.rrmse, comparison.truth.bound)) +
             cell(fmt::format("{}", run.errors.same_surface.left_out_pixels)) +
             cell(percent(error.bias, "+")) + cell(percent(error.mae)) + cell(percent(error.p99)) +
-            cell(percent(error.max)) + cell(fmt::format("{:.3g}", error.relmse)) +
+            cell(percent(error.max)) + cell(error.is_dark ? "dark" : fmt::format("{:.3g}", error.relmse)) +
             cell(percent(run.errors.same_surface.leaked)) + cell(percent(run.errors.same_surface.spurious)) +
             cell(fmt::format("{} / {}", run.errors.surface.wrong_pixels, run.errors.surface.pixels)) +
             cell(fmt::format("{:.1f}", static_cast<double>(bytes) / (1 << 20))) + "</tr>\n";
@@ -205,10 +208,13 @@ std::string report_html(const Comparison& comparison) {
     html += "<p>Warning: " + escape(warning) + "</p>\n";
   }
 
+  if (truth.is_dark()) html += "<p>" + escape(dark_text(truth)) + "</p>\n";
+
   html +=
       "<h2>Time and error</h2>\n<div class=\"scroll\"><table><thead><tr><th class=\"name\">volume</th>"
       "<th class=\"name\">surface</th><th>frame [ms]</th><th>frames</th><th>march/frame</th><th>Mrays/s</th>"
-      "<th>rrmse [%]</th><th>same-surface rrmse [%]</th><th>left out [pixels]</th><th>bias [%]</th><th>mae "
+      "<th>rmse [W/(m² sr)]</th><th>rrmse [%]</th><th>same-surface rrmse [%]</th><th>left out "
+      "[pixels]</th><th>bias [%]</th><th>mae "
       "[%]</th><th>p99 [%]</th><th>max [%]</th><th>relmse</th><th>leaked [%]</th><th>spurious shadow [%]</th>"
       "<th>wrong pixels</th><th>memory [MiB]</th></tr></thead><tbody>\n" +
       results_rows(comparison) + "</tbody></table></div>\n";

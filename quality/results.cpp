@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A relative figure; JSON has no infinity, which is what an error against a black reference is.
+/// A relative figure; null where it is none, as against a dark reference.
 Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
@@ -65,8 +65,9 @@ Json run_json(const Run& run) {
       {"bytes", run.cost.bytes},
       {"error",
        {{"airlight",
-         {{"bias", number(error.bias)},
-          {"rmse", number(error.rmse)},
+         {{"dark", error.is_dark},
+          {"bias", number(error.bias)},
+          {"rmse", error.rmse},
           {"rrmse", number(error.rrmse)},
           {"mae", number(error.mae)},
           {"p99", number(error.p99)},
@@ -75,7 +76,8 @@ Json run_json(const Run& run) {
           {"leaked", number(error.leaked)},
           {"spurious", number(error.spurious)}}},
         {"airlight_same_surface",
-         {{"bias", number(run.errors.same_surface.bias)},
+         {{"dark", run.errors.same_surface.is_dark},
+          {"bias", number(run.errors.same_surface.bias)},
           {"rrmse", number(run.errors.same_surface.rrmse)},
           {"leaked", number(run.errors.same_surface.leaked)},
           {"spurious", number(run.errors.same_surface.spurious)},
@@ -127,8 +129,16 @@ std::map<std::string, std::string> view_options(const scene::View& view) {
   return options;
 }
 
+std::string dark_text(const TruthFigures& truth) {
+  return fmt::format(
+      "dark: the reference's mean airlight, {:.2g} W/(m2 sr), is not above the floor of {:.2g}, a millionth "
+      "of "
+      "what the light would give if nothing stood in it (or 1e-30); no error is told relative to it",
+      truth.mean_airlight, truth.floor);
+}
+
 std::string error_text(double rrmse, double bound) {
-  if (!std::isfinite(rrmse)) return "inf";
+  if (std::isnan(rrmse)) return "dark";
   if (rrmse == 0.0 && bound == 0.0) return "0";
   if (rrmse <= bound) return fmt::format("< {:.3g}", 100.0 * bound);
   return fmt::format("{:.3g}", 100.0 * rrmse);
@@ -157,7 +167,9 @@ std::string results_json(const Comparison& comparison) {
         {"ms", comparison.truth.ms},
         {"shadows_per_pixel", comparison.truth.shadows_per_pixel},
         {"lit_runs_per_pixel", comparison.truth.lit_runs_per_pixel},
-        {"mean_airlight", comparison.truth.mean_airlight}}},
+        {"mean_airlight", comparison.truth.mean_airlight},
+        {"floor", comparison.truth.floor},
+        {"dark", comparison.truth.is_dark()}}},
       {"runs", runs}};
   // File names need not be UTF-8; JSON must be.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -175,15 +187,16 @@ std::string results_table(const Comparison& comparison) {
 
   // What each run cost and how far off it is.
   std::vector<std::vector<std::string>> rows = {{"volume", "surface", "frame ms", "march/frame", "Mrays/s",
-                                                 "rrmse %", "bias %", "p99 %", "same-surface rrmse %",
+                                                 "rmse", "rrmse %", "bias %", "p99 %", "same-surface rrmse %",
                                                  "left out px", "wrong px"}};
   for (const Run& run : comparison.runs) {
     const AirlightError& error = run.errors.airlight;
     rows.push_back({run.volume, run.surface, fmt::format("{:.2f}", run.cost.frame_ms),
                     run.march_ratio > 0.0 ? fmt::format("{:.2f}", run.march_ratio) : "-",
                     run.cost.rays > 0 ? fmt::format("{:.2f}", run.cost.mrays_per_s) : "-",
-                    error_text(error.rrmse, truth.bound), fmt::format("{:+.3f}", 100.0 * error.bias),
-                    fmt::format("{:.3g}", 100.0 * error.p99),
+                    fmt::format("{:.3g}", error.rmse), error_text(error.rrmse, truth.bound),
+                    error.is_dark ? "dark" : fmt::format("{:+.3f}", 100.0 * error.bias),
+                    error.is_dark ? "dark" : fmt::format("{:.3g}", 100.0 * error.p99),
                     error_text(run.errors.same_surface.rrmse, truth.bound),
                     fmt::format("{}", run.errors.same_surface.left_out_pixels),
                     fmt::format("{}", run.errors.surface.wrong_pixels)});
@@ -213,7 +226,8 @@ std::string results_table(const Comparison& comparison) {
       "frame ms: median of whole frames, GPU finished. Stages: medians, the GPU finished around each.\n"
       "march/frame: frame time of the fastest reference-march / this frame time. Mrays/s: shadow rays for "
       "airlight.\n"
-      "rrmse, bias, p99: airlight against the reference, in % of its mean ({:.4g} W/(m2 sr)). < marks what "
+      "rmse: airlight against the reference [W/(m2 sr)]. rrmse, bias, p99: airlight against the reference, "
+      "in % of its mean ({:.4g} W/(m2 sr)). < marks what "
       "is not\n"
       "above the bound of the reference's own error. same-surface: without the pixels where rasterisation "
       "shows "
@@ -222,6 +236,7 @@ std::string results_table(const Comparison& comparison) {
       "other\n"
       "way round, of {} that both see.\n",
       truth.mean_airlight, pixels);
+  if (truth.is_dark()) text += dark_text(truth) + "\n";
   return text;
 }
 

@@ -64,7 +64,11 @@ std::string results_json(const Comparison& comparison);
 /// The comparison as a table for a terminal, each figure with its unit and what it was compared with.
 std::string results_table(const Comparison& comparison);
 
-/// A relative airlight error in percent; one that is not above the truth's own reads "< that".
+/// Says that the truth is dark, and what that means.
+std::string dark_text(const TruthFigures& truth);
+
+/// A relative airlight error in percent; one that is not above the truth's own reads "< that", one against a
+/// dark truth "dark".
 std::string error_text(double rrmse, double bound);
 
 /// Every choice of a view under the name of the option that makes it.

@@ -1,5 +1,7 @@
 #include "quality/truth.h"
 
+#include <algorithm>
+
 namespace airlight::quality {
 namespace {
 
@@ -10,6 +12,16 @@ double mean(const std::vector<glm::vec3>& image) {
     sum += wide.r + wide.g + wide.b;
   }
   return sum / static_cast<double>(3 * image.size());
+}
+
+/// Mean airlight of the view without anything in it, on a coarse image: only its magnitude matters.
+double unshadowed_airlight(scene::View view) {
+  constexpr int k_side = 32;  // pixels
+  view.size = glm::max(view.size * k_side / std::max(view.size.x, view.size.y), glm::ivec2(1));
+  double sum = 0.0;
+  for (std::size_t light = 0; light < view.lights.size(); ++light)
+    sum += mean(reference::Reference({}, view, light).exact().radiance);
+  return sum;
 }
 
 }  // namespace
@@ -34,6 +46,7 @@ Truth trace_truth(SharedReference& reference, const scene::View& view) {
     figures.lit_runs_per_pixel += airlight.lit_runs_per_pixel;
   }
   figures.mean_airlight = mean(truth.airlight);
+  figures.floor = std::max(k_dark * unshadowed_airlight(view), k_least);
   figures.bound = figures.mean_airlight > 0.0 ? error / figures.mean_airlight : 0.0;
   return truth;
 }

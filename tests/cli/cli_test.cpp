@@ -905,13 +905,30 @@ TEST_F(Compare, SceneWithoutGeometryIsSane) {
   EXPECT_EQ(run["error"]["surface"]["pixels"], 0);
 }
 
-TEST_F(Compare, BlackReferenceGivesNoInfinity) {
-  const Result result =
-      small({"compare", "cornell", "-o", "out", "--volume", "vsv", "--frames", "1", "--intensity", "0"});
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  const Json results = Json::parse(read_text(file("out/results.json")));
-  EXPECT_EQ(results["runs"][0]["error"]["airlight"]["rmse"], 0.0);
-  EXPECT_THAT(tests::schema_violations(results, Json::parse(read_text(AIRLIGHT_SCHEMA))), IsEmpty());
+TEST_F(Compare, DarkReferenceGivesNoRelativeError) {
+  const Json schema = Json::parse(read_text(AIRLIGHT_SCHEMA));
+  // No light; none that is left by the fog; none of a magnitude that single precision holds.
+  for (const Words& words : {Words{"--intensity", "0"}, {"--sigma-s", "1000"}, {"--intensity", "1e-35"}}) {
+    const Json results = compare(words);
+    EXPECT_EQ(results["reference"]["dark"], true) << words[1];
+    const Json& error = results["runs"][0]["error"]["airlight"];
+    EXPECT_EQ(error["dark"], true);
+    EXPECT_TRUE(error["rrmse"].is_null() && error["bias"].is_null() && error["relmse"].is_null());
+    EXPECT_LT(error["rmse"], 1e-30);
+    EXPECT_THAT(tests::schema_violations(results, schema), IsEmpty());
+    for (const std::string& text : {read_text(file("out/report.html")), read_text(file("stdout"))}) {
+      EXPECT_THAT(text, HasSubstr("is not above the floor"));
+      for (const char* word : {"inf ", "inf<", "nan"}) EXPECT_EQ(text.find(word), std::string::npos) << word;
+    }
+  }
+  const Json bright = compare({"--intensity", "1e-20", "--volume", "vsv"});
+  EXPECT_EQ(bright["reference"]["dark"], false);
+  EXPECT_EQ(bright["runs"][0]["error"]["airlight"]["dark"], false);
+
+  // --max-error asks that a method be as dark.
+  Words words = {"compare", "cornell", "-o", "out", "--volume", "vsv", "--frames", "1", "--max-error", "0"};
+  words.insert(words.end(), {"--intensity", "0"});
+  EXPECT_EQ(small(words).exit_code, 0);
 }
 
 }  // namespace

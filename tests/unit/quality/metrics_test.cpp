@@ -11,8 +11,6 @@
 namespace airlight::quality {
 namespace {
 
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
-
 TEST(AirlightError, MatchesTwoByTwoImagesWorkedOutByHand) {
   // Mean of r: 2. Differences: 1, 0, 0, −2.
   const std::vector<float> r{1, 1, 2, 4}, x{2, 1, 2, 2};
@@ -56,16 +54,21 @@ TEST(AirlightError, P99IsTheSmallestValueThat99PercentDoNotExceed) {
   EXPECT_DOUBLE_EQ(airlight_error(x, r).p99, 1.0);
 }
 
-TEST(AirlightError, OfABlackReferenceIsZeroOrInfinite) {
-  const std::vector<float> black(4, 0.0f), x{0, 0, 0, 1};
-  AirlightError error = airlight_error(black, black);
-  for (double value : {error.bias, error.rrmse, error.mae, error.p99, error.max, error.relmse})
-    EXPECT_EQ(value, 0.0);
-  error = airlight_error(x, black);
-  for (double value : {error.bias, error.rrmse, error.mae, error.p99, error.max, error.relmse}) {
-    EXPECT_EQ(value, k_infinity);
-  }
-  EXPECT_DOUBLE_EQ(error.rmse, 0.5);
+TEST(AirlightError, IsNotRelativeToADarkReference) {
+  const std::vector<float> black(4, 0.0f), dim(4, 1e-3f), x{0, 0, 0, 1};
+  const auto expect_dark = [](const AirlightError& error, bool is_dark) {
+    EXPECT_EQ(error.is_dark, is_dark);
+    for (double value : {error.bias, error.rrmse, error.mae, error.p99, error.max, error.relmse, error.leaked,
+                         error.spurious})
+      EXPECT_EQ(std::isnan(value), is_dark);
+    EXPECT_TRUE(std::isfinite(error.rmse));
+  };
+  expect_dark(airlight_error(black, black), true);
+  expect_dark(airlight_error(x, black), true);
+  EXPECT_DOUBLE_EQ(airlight_error(x, black).rmse, 0.5);
+  expect_dark(airlight_error(x, dim), false);
+  expect_dark(airlight_error(x, dim, 0.99e-3), false);
+  expect_dark(airlight_error(x, dim, 1.01e-3), true);
 }
 
 TEST(AirlightError, AddsUpLargeImagesInDoublePrecision) {
@@ -100,6 +103,8 @@ TEST(SameSurfaceError, LeavesOutPixelsThatSeeDifferentSurfaces) {
   EXPECT_EQ(error.left_out_pixels, 2u);
   EXPECT_DOUBLE_EQ(error.bias, 0.0);                          // (1+3+2+2)/(1+1+2+4) − 1
   EXPECT_DOUBLE_EQ(error.rrmse, std::sqrt(8.0 / 4.0) / 2.0);  // sqrt((0+4+0+4)/4) / mean 2
+  EXPECT_FALSE(error.is_dark);
+  EXPECT_TRUE(same_surface_error(x, distance, r, reference_distance, 2.1).is_dark);
 }
 
 TEST(SurfaceError, CountsPixelsThatHitInBothAndDiffer) {

@@ -66,9 +66,9 @@ TEST(ResultsJson, WritesSinglePrecisionWithTheDigitsItHas) {
   EXPECT_EQ(json::parse(results_json(comparison))["view"]["medium"]["sigma_s"], (json{0.1, 0.1, 0.1}));
 }
 
-TEST(ResultsJson, HasNoInfinityAndSurvivesAnyFileName) {
+TEST(ResultsJson, HasNullForWhatIsNoNumberAndSurvivesAnyFileName) {
   Comparison comparison = two_runs();
-  comparison.runs[0].errors.airlight.rrmse = std::numeric_limits<double>::infinity();
+  comparison.runs[0].errors.airlight.rrmse = std::numeric_limits<double>::quiet_NaN();
   comparison.scene = "\xff.obj";
   const json results = json::parse(results_json(comparison));
   EXPECT_TRUE(results["runs"][0]["error"]["airlight"]["rrmse"].is_null());
@@ -87,7 +87,7 @@ TEST(ErrorText, IsAPercentageOrABound) {
   EXPECT_EQ(error_text(0.001, 0.001), "< 0.1");
   EXPECT_EQ(error_text(0.0, 0.001), "< 0.1");
   EXPECT_EQ(error_text(0.0, 0.0), "0");
-  EXPECT_EQ(error_text(std::numeric_limits<double>::infinity(), 0.001), "inf");
+  EXPECT_EQ(error_text(std::numeric_limits<double>::quiet_NaN(), 0.001), "dark");
 }
 
 TEST(ViewOptions, ReadBackToTheSameNumbers) {
