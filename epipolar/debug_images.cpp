@@ -3,7 +3,9 @@
 #include <bit>
 #include <utility>
 
-#include "spirv/epipolar/shadowed_samples_comp.h"
+#include "frame/screen_pass.h"
+
+#include "spirv/epipolar/shadowed_samples_frag.h"
 
 namespace airlight::epipolar {
 namespace {
@@ -41,12 +43,10 @@ frame::DebugImage grid_image(const Grid& grid, const char* name, const char* cap
 }
 
 frame::DebugImage shadowed_samples(const Grid& grid, const frame::FrameInputs& inputs) {
-  const gpu::Pipeline program =
-      gpu::Pipeline::compute(k_shadowed_samples_comp, resolution_constants(grid.resolution()));
+  const frame::ScreenPass pass(k_shadowed_samples_frag, resolution_constants(grid.resolution()));
   const gpu::Texture fractions(gpu::Format::r32f, inputs.view.size);
   inputs.surfaces.bind_sampler(shaders::k_surface_unit);
-  fractions.bind_image(shaders::k_output_image);
-  program.dispatch({inputs.view.size, 1});
+  pass.run({fractions});
   return {"shadowed_samples", "shadowed samples of each view ray before it ends, of all its samples",
           inputs.view.size, fractions.read<float>()};
 }

@@ -2,30 +2,29 @@
 
 #include <array>
 
-#include "spirv/epipolar/surface_lookup_comp.h"
+#include "spirv/epipolar/surface_lookup_frag.h"
 
 namespace airlight::epipolar {
 namespace {
 
-gpu::Pipeline make_program(const VolumeOptions& options) {
+frame::ScreenPass make_pass(const VolumeOptions& options) {
   const auto grid = resolution_constants(options.resolution);
   const bool whole_voxels = options.populate == Populate::conservative;
-  return gpu::Pipeline::compute(
-      k_surface_lookup_comp, std::array{grid[0], grid[1], grid[2], gpu::Constant(3, whole_voxels ? 1 : 0)});
+  return frame::ScreenPass(k_surface_lookup_frag,
+                           std::array{grid[0], grid[1], grid[2], gpu::Constant(3, whole_voxels ? 1 : 0)});
 }
 
 }  // namespace
 
 SurfaceLookup::SurfaceLookup(const gpu::Context& context, const VolumeOptions& options)
-    : volume_(context.limits(), options), program_(make_program(options)) {}
+    : volume_(context.limits(), options), pass_(make_pass(options)) {}
 
 void SurfaceLookup::query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) {
   volume_.find_ranges(inputs);
   volume_.fill(inputs);
   inputs.timer.time("surface_query", [&] {
     inputs.surfaces.bind_sampler(shaders::k_surface_unit);
-    visibility.bind_image(shaders::k_output_image);
-    program_.dispatch({inputs.view.size, 1});
+    pass_.run({visibility});
   });
 }
 

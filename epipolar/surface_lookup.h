@@ -2,7 +2,7 @@
 
 #include "epipolar/volume.h"
 #include "frame/method.h"
-#include "gpu/pipeline.h"
+#include "frame/screen_pass.h"
 
 namespace airlight::epipolar {
 
@@ -24,7 +24,7 @@ class SurfaceLookup : public frame::SurfaceShadow {
 
  private:
   ShadowVolume volume_;
-  gpu::Pipeline program_;
+  frame::ScreenPass pass_;
 };
 
 frame::SurfaceMethod surface_lookup_method();

@@ -10,7 +10,7 @@
 #include "frame/blocks.h"
 #include "scene/error.h"
 
-#include "spirv/frame/composite_comp.h"
+#include "spirv/frame/composite_frag.h"
 
 namespace airlight::frame {
 namespace {
@@ -134,9 +134,10 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
 void Frame::composite(const gpu::Texture& visibility, const gpu::Texture& airlight, bool adds) {
   const gpu::Texture* light_texture = resources_.light_texture();
   const bool is_textured = light_texture != nullptr;
-  if (!composite_.contains({is_textured, adds})) {
-    composite_[{is_textured, adds}] = gpu::Pipeline::compute(
-        k_composite_comp, std::array{gpu::Constant(0, is_textured), gpu::Constant(1, adds)});
+  auto& pass = composite_[{is_textured, adds}];
+  if (!pass) {
+    pass.emplace(k_composite_frag, std::array{gpu::Constant(0, is_textured)},
+                 adds ? gpu::Blend::add : gpu::Blend::replace);
   }
   resources_.scene().bind_samplers();
   gbuffer_->triangles().bind_sampler(shaders::k_triangle_unit);
@@ -144,9 +145,11 @@ void Frame::composite(const gpu::Texture& visibility, const gpu::Texture& airlig
   visibility.bind_sampler(shaders::k_visibility_unit);
   airlight.bind_sampler(shaders::k_airlight_unit);
   if (light_texture) light_texture->bind_sampler(shaders::k_light_texture_unit);
-  radiance_.bind_image(shaders::k_output_image);
-  airlight_.bind_image(shaders::k_sum_image);
-  composite_[{is_textured, adds}].dispatch({radiance_.size(), 1});
+  if (adds) {
+    pass->run({radiance_, airlight_});
+  } else {
+    pass->run({radiance_});
+  }
 }
 
 FrameImages Frame::read() const {

@@ -8,6 +8,7 @@
 #include "frame/gbuffer.h"
 #include "frame/methods.h"
 #include "frame/resources.h"
+#include "frame/screen_pass.h"
 #include "gpu/buffer.h"
 #include "gpu/pipeline.h"
 
@@ -53,7 +54,8 @@ class Frame {
   gpu::Context& context_;
   Resources resources_;
   gpu::Buffer camera_block_, light_block_, medium_block_;
-  std::map<std::pair<bool, bool>, gpu::Pipeline> composite_;  ///< by: the light is textured, it adds
+  std::map<std::pair<bool, bool>, std::optional<ScreenPass>>
+      composite_;  ///< by: the light is textured, it adds
 
   std::optional<GBuffer> gbuffer_;
   std::vector<gpu::Texture> visibility_;  ///< one a light

@@ -5,7 +5,7 @@
 
 #include "spirv/frame/gbuffer_frag.h"
 #include "spirv/frame/gbuffer_vert.h"
-#include "spirv/frame/surfaces_comp.h"
+#include "spirv/frame/surfaces_frag.h"
 
 namespace airlight::frame {
 
@@ -16,7 +16,7 @@ GBuffer::GBuffer(glm::ivec2 size)
       framebuffer_({triangles_}, depth_),
       draw_(
           gpu::Pipeline::graphics({.vertex = k_gbuffer_vert, .fragment = k_gbuffer_frag}, k_reversed_depth)),
-      resolve_(gpu::Pipeline::compute(k_surfaces_comp)) {}
+      resolve_(k_surfaces_frag) {}
 
 void GBuffer::draw(const SceneBuffers& scene, const scene::CameraFrame& camera,
                    std::span<const std::uint32_t> left_out) const {
@@ -32,8 +32,7 @@ void GBuffer::draw(const SceneBuffers& scene, const scene::CameraFrame& camera,
   });
   scene.bind_samplers();
   triangles_.bind_sampler(shaders::k_triangle_unit);
-  surfaces_.bind_image(shaders::k_output_image);
-  resolve_.dispatch({triangles_.size(), 1});
+  resolve_.run({surfaces_});
 }
 
 }  // namespace airlight::frame

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "frame/scene_buffers.h"
+#include "frame/screen_pass.h"
 #include "gpu/pipeline.h"
 #include "gpu/texture.h"
 
@@ -25,7 +26,8 @@ class GBuffer {
  private:
   gpu::Texture triangles_, surfaces_, depth_;
   gpu::Framebuffer framebuffer_;
-  gpu::Pipeline draw_, resolve_;
+  gpu::Pipeline draw_;
+  ScreenPass resolve_;
 };
 
 }  // namespace airlight::frame

@@ -11,9 +11,9 @@
 #include "media/medium.h"
 
 #include "spirv/media/phi_growth_comp.h"
-#include "spirv/media/vsv_riemann_comp.h"
+#include "spirv/media/vsv_riemann_frag.h"
 #include "spirv/media/vsv_table_build_comp.h"
-#include "spirv/media/vsv_table_comp.h"
+#include "spirv/media/vsv_table_frag.h"
 
 namespace airlight::media {
 namespace {
@@ -65,14 +65,14 @@ void Vsv::load(const gpu::Context& context, const Variant& variant) {
   phi_growth_ = gpu::Pipeline::compute(k_phi_growth_comp, std::array{grid[0], constants[3]});
   if (options_.integral != VsvIntegral::riemann) {
     build_table_ = gpu::Pipeline::compute(k_vsv_table_build_comp, constants);
-    integrate_ = gpu::Pipeline::compute(k_vsv_table_comp, constants);
+    integrate_ = frame::ScreenPass(k_vsv_table_frag, constants);
     table_ =
         gpu::Buffer(std::int64_t{table_rows(variant.rough)} * (resolution.phi + 1) * variant.channels * 8);
     table_texels_ = {context.limits(), table_, gpu::Format::rg32f, "the table integral"};
   } else {
-    integrate_ = gpu::Pipeline::compute(k_vsv_riemann_comp,
-                                        std::array{grid[0], grid[1], grid[2], constants[3],
-                                                   gpu::Constant(4, variant.light_textured), constants[8]});
+    integrate_ = frame::ScreenPass(k_vsv_riemann_frag,
+                                   std::array{grid[0], grid[1], grid[2], constants[3],
+                                              gpu::Constant(4, variant.light_textured), constants[8]});
   }
   loaded_ = variant;
 }
@@ -120,8 +120,7 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
     inputs.surfaces.bind_sampler(shaders::k_surface_unit);
     if (has_table) table_texels_.bind_sampler(shaders::k_table_unit);
     if (light_texture) light_texture->bind_sampler(shaders::k_light_texture_unit);
-    radiance.bind_image(shaders::k_output_image);
-    integrate_.dispatch({inputs.view.size, 1});
+    integrate_.run({radiance});
   });
 }
 

@@ -4,6 +4,7 @@
 
 #include "epipolar/volume.h"
 #include "frame/method.h"
+#include "frame/screen_pass.h"
 
 namespace airlight::media {
 
@@ -67,7 +68,8 @@ class Vsv : public frame::Airlight {
   std::optional<Variant> loaded_;
   gpu::Buffer table_;
   gpu::TexelView table_texels_;
-  gpu::Pipeline phi_growth_, build_table_, integrate_;
+  gpu::Pipeline phi_growth_, build_table_;
+  frame::ScreenPass integrate_;
 };
 
 frame::AirlightMethod vsv_method();

@@ -1,5 +1,5 @@
 // Where everything that a shader reads or writes is bound: one name a thing, for C++ and GLSL. OpenGL 4.5 guarantees 16 texture
-// units, 8 storage buffers, 8 image units and 12 uniform blocks a stage: no number lies above that.
+// units, 8 storage buffers and 12 uniform blocks a stage: no number lies above that.
 #ifndef AIRLIGHT_BINDINGS_GLSL
 #define AIRLIGHT_BINDINGS_GLSL
 #include "shared.glsl"
@@ -35,9 +35,5 @@ CONST uint k_planes_storage = 3u;
 CONST uint k_queue_storage = 4u;      // epipolar/triangle_queue.glsl
 CONST uint k_scratch_storage = 5u;
 CONST uint k_table_storage = 6u;
-
-// Image units
-CONST uint k_output_image = 0u;  // what a pass over pixels writes
-CONST uint k_sum_image = 1u;     // and what it adds to
 
 #endif

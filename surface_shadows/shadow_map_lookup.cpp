@@ -3,19 +3,18 @@
 #include "frame/blocks.h"
 #include "frame/shadow_map.h"
 
-#include "spirv/surface_shadows/shadow_map_lookup_comp.h"
+#include "spirv/surface_shadows/shadow_map_lookup_frag.h"
 
 namespace airlight::surface_shadows {
 
-ShadowMapLookup::ShadowMapLookup() : program_(gpu::Pipeline::compute(k_shadow_map_lookup_comp)) {}
+ShadowMapLookup::ShadowMapLookup() : pass_(k_shadow_map_lookup_frag) {}
 
 void ShadowMapLookup::query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) {
   const frame::ShadowMap& shadow_map = inputs.shadow_map();
   inputs.timer.time("surface_query", [&] {
     inputs.surfaces.bind_sampler(shaders::k_surface_unit);
     shadow_map.depth().bind_sampler(shaders::k_shadow_map_unit);
-    visibility.bind_image(shaders::k_output_image);
-    program_.dispatch({inputs.view.size, 1});
+    pass_.run({visibility});
   });
 }
 

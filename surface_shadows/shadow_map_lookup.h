@@ -1,7 +1,7 @@
 #pragma once
 
 #include "frame/method.h"
-#include "gpu/pipeline.h"
+#include "frame/screen_pass.h"
 
 namespace airlight::surface_shadows {
 
@@ -14,7 +14,7 @@ class ShadowMapLookup : public frame::SurfaceShadow {
   void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override;
 
  private:
-  gpu::Pipeline program_;
+  frame::ScreenPass pass_;
 };
 
 struct ShadowMapLookupOptions {

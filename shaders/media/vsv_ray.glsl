@@ -9,7 +9,7 @@ layout(constant_id = 3) const uint k_phase = 0;
 
 layout(binding = k_surface_unit) uniform sampler2D surface_image;
 layout(binding = k_grid_unit) uniform usamplerBuffer grid_texels;
-layout(binding = k_output_image, rgba32f) uniform writeonly image2D airlight_image;
+layout(location = 0) out vec4 airlight;
 
 // How far before the plane, in cells of φ, a bit has to lie to be trusted: the shadow map places the surface by its texels.
 const float k_plane_slack = 0.25;

@@ -4,17 +4,15 @@
 
 // What each view ray hits, from the triangle seen there: its normal, turned towards the eye, and the distance to its plane.
 // Interpolated depth would lose digits on large triangles that reach behind the eye.
-layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = k_triangle_unit) uniform usampler2D triangle_plus_one;
 layout(binding = k_positions_unit) uniform samplerBuffer positions;   // vec3, world space
 layout(binding = k_triangles_unit) uniform usamplerBuffer triangles;  // uvec3, indices of positions
-layout(binding = k_output_image, rgba32f) uniform writeonly image2D surface_image;
+layout(location = 0) out vec4 surface;
 
 void main() {
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(vec2(pixel), vec2(camera.image_width, camera.image_height)))) return;
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
   uint seen = texelFetch(triangle_plus_one, pixel, 0).r;
-  vec4 surface = vec4(0.0);
+  surface = vec4(0.0);
   if (seen != 0u) {
     uvec3 corners = texelFetch(triangles, int(seen) - 1).xyz;
     vec3 a = eye_relative(camera, texelFetch(positions, int(corners.x)).xyz);
@@ -26,5 +24,4 @@ void main() {
     surface.xyz = dot(normal, ray) > 0.0 ? -normal : normal;
     surface.w = max(ray_triangle_distance(ray, a, b, c), 1e-30);
   }
-  imageStore(surface_image, pixel, surface);
 }

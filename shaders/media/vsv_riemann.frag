@@ -6,7 +6,6 @@
 // Airlight from the shadow volume as the paper sums it (Eq. 5), in φ instead of t: the integrand at the centre of every lit
 // cell. A cell counts whole when its centre lies before the end of the ray. Deviation: with k_rough, where the integrand may change
 // within a cell, its integral over what of the cell lies before that end, and the light's colour at the centre.
-layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 4) const uint k_light_textured = 0;
 layout(constant_id = 9) const uint k_rough = 0;
 layout(binding = k_light_texture_unit) uniform sampler2D light_texture;
@@ -19,8 +18,7 @@ vec3 colour_at(vec3 outward, float phi) {
 }
 
 void main() {
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(vec2(pixel), vec2(camera.image_width, camera.image_height)))) return;
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
   VsvRay ray = vsv_ray(pixel);
   float complement = alpha_complement(ray.angle);
   vec3 direction = view_ray(camera, vec2(pixel) + 0.5);
@@ -49,5 +47,5 @@ void main() {
     }
   }
   vec3 radiance = airlight_scale(space, light, medium, ray.angle.sine) * sum;
-  imageStore(airlight_image, pixel, vec4(radiance, 1.0));
+  airlight = vec4(radiance, 1.0);
 }

@@ -3,7 +3,6 @@
 #include "frame/light_colour.glsl"
 #include "frame/uniforms.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = k_triangle_unit) uniform usampler2D triangle_plus_one;
 layout(binding = k_surface_unit) uniform sampler2D surface_image;
 layout(binding = k_visibility_unit) uniform sampler2D visibility_image;
@@ -11,17 +10,15 @@ layout(binding = k_airlight_unit) uniform sampler2D airlight_image;
 layout(binding = k_albedos_unit) uniform samplerBuffer albedos;
 layout(binding = k_materials_unit) uniform usamplerBuffer material_of_triangle;
 layout(binding = k_light_texture_unit) uniform sampler2D light_texture;
-layout(binding = k_output_image, rgba32f) uniform image2D radiance_image;
-layout(binding = k_sum_image, rgba32f) uniform image2D airlight_sum;
 layout(constant_id = 0) const uint k_light_textured = 0;
-layout(constant_id = 1) const uint k_adds = 0;  // to what the lights before have left in both images
+layout(location = 0) out vec4 radiance;
+layout(location = 1) out vec4 airlight;  // where that of several lights is summed
 
 // Lambert surfaces lit by one light, attenuated from the light to the surface and on to the eye, plus its airlight.
 void main() {
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(vec2(pixel), vec2(camera.image_width, camera.image_height)))) return;
-  vec3 airlight = texelFetch(airlight_image, pixel, 0).rgb;
-  vec3 radiance = airlight;
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  airlight = vec4(texelFetch(airlight_image, pixel, 0).rgb, 1.0);
+  radiance = airlight;
   uint seen = texelFetch(triangle_plus_one, pixel, 0).r;
   vec3 visibility = texelFetch(visibility_image, pixel, 0).rgb;
   if (seen != 0u && visibility != vec3(0.0)) {
@@ -32,12 +29,7 @@ void main() {
     float cosine = dot(surface.xyz, to_light) / max(r, 1e-30);
     vec3 albedo = texelFetch(albedos, int(texelFetch(material_of_triangle, int(seen) - 1).r)).rgb;
     vec3 colour = k_light_textured != 0u ? light_colour(light_texture, -to_light) : vec3(1.0);
-    radiance += visibility * max(cosine, 0.0) * albedo / k_pi * light.intensity / max(r * r, 1e-20) * colour *
+    radiance.rgb += visibility * max(cosine, 0.0) * albedo / k_pi * light.intensity / max(r * r, 1e-20) * colour *
                 exp(-medium.sigma_t * (r + distance));
   }
-  if (k_adds != 0u) {
-    radiance += imageLoad(radiance_image, pixel).rgb;
-    imageStore(airlight_sum, pixel, vec4(imageLoad(airlight_sum, pixel).rgb + airlight, 1.0));
-  }
-  imageStore(radiance_image, pixel, vec4(radiance, 1.0));
 }

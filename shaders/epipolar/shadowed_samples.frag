@@ -6,14 +6,12 @@
 
 // How many of the samples along each pixel's view ray are in shadow, of all N_φ (Fig. 7, bottom): set bits of its row whose
 // centre lies before the end of the ray.
-layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = k_surface_unit) uniform sampler2D surface_image;
 layout(binding = k_grid_unit) uniform usamplerBuffer grid_texels;
-layout(binding = k_output_image, r32f) uniform writeonly image2D fraction_image;
+layout(location = 0) out float fraction;
 
 void main() {
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(vec2(pixel), vec2(camera.image_width, camera.image_height)))) return;
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec3 direction = view_ray(camera, vec2(pixel) + 0.5);
   EyeAngle angle = eye_angle(space, direction, quarter_pixel(camera));
   float t = texelFetch(surface_image, pixel, 0).w;
@@ -31,5 +29,5 @@ void main() {
       count += bitCount(words[word] & mask);
     }
   }
-  imageStore(fraction_image, pixel, vec4(float(count) / float(k_phi_count)));
+  fraction = float(count) / float(k_phi_count);
 }

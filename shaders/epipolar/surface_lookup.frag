@@ -8,16 +8,15 @@
 
 // Is a pixel's surface lit? One bit of the shadow volume tells: that of the last voxel in front of the surface, on the light ray
 // that is nearest to the surface's point.
-layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = k_surface_unit) uniform sampler2D surface_image;
 layout(binding = k_grid_unit) uniform usamplerBuffer grid_texels;
-layout(binding = k_output_image, r32f) uniform writeonly image2D visibility_image;
+layout(location = 0) out float visibility;
 
 // Whether a voxel is dark as soon as a triangle touches it, or only where its centre is in shadow.
 layout(constant_id = 3) const bool k_whole_voxels = false;
 
 // How far a light ray may pass from the texel of the shadow map that answered for it [texels]: half a texel's diagonal, and a
-// quarter more for a surface that bends between the two (surface_shadows/shadow_map_lookup.comp).
+// quarter more for a surface that bends between the two (surface_shadows/shadow_map_lookup.frag).
 const float k_texel_reach = 0.96;
 // Of a cell of α: what single precision leaves of a plane that a light ray grazes.
 const float k_rounding = 0.02;
@@ -25,8 +24,7 @@ const float k_rounding = 0.02;
 const float k_length_slack = 1e-4;
 
 void main() {
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(vec2(pixel), vec2(camera.image_width, camera.image_height)))) return;
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec4 surface = texelFetch(surface_image, pixel, 0);
   vec3 direction = view_ray(camera, vec2(pixel) + 0.5);
   EyeAngle angle = eye_angle(space, direction, quarter_pixel(camera));
@@ -64,5 +62,5 @@ void main() {
     uvec4 words = texelFetch(grid_texels, int(texel));
     is_lit = is_lit && (words[bit >> 5 & 3u] >> (bit & 31u) & 1u) == 0u;
   }
-  imageStore(visibility_image, pixel, vec4(is_lit ? 1.0 : 0.0));
+  visibility = is_lit ? 1.0 : 0.0;
 }

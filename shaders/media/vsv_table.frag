@@ -9,7 +9,6 @@
 // With k_factored, the factored visibility of Dobashi et al. 2002: the integral as if all of the ray were lit, times the lit
 // fraction of its samples. That takes one look-up a pixel, and does not ask where on the ray the shadow lies. The samples of the
 // paper are equal steps of φ; so that the result does not depend on how cells grow, the bits of a word weigh what it spans.
-layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = k_table_unit) uniform samplerBuffer table;  // vec2
 
 // A ray that ends within this many cells is integrated directly: where α → π the integral and sin α vanish together, and
@@ -31,8 +30,7 @@ void add_changes(uint changes, uint first_cell, uint row_start, inout float sign
 }
 
 void main() {
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(vec2(pixel), vec2(camera.image_width, camera.image_height)))) return;
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
   VsvRay ray = vsv_ray(pixel);
 
   vec3 integral = vec3(0.0);
@@ -100,5 +98,5 @@ void main() {
     if (k_factored != 0u) integral *= lit_range / all_range;
   }
   vec3 radiance = airlight_scale(space, light, medium, ray.angle.sine) * max(integral, vec3(0.0));
-  imageStore(airlight_image, pixel, vec4(radiance, 1.0));
+  airlight = vec4(radiance, 1.0);
 }
