@@ -38,7 +38,7 @@ void Vsv::load(const gpu::Context& context, const Variant& variant) {
   if (loaded_ == variant) return;
   const epipolar::Resolution& resolution = volume_.grid().resolution();
   const auto grid = epipolar::resolution_constants(resolution);
-  const std::array<gpu::Constant, 8> constants = {
+  const std::array<gpu::Constant, 9> constants = {
       grid[0],
       grid[1],
       grid[2],
@@ -46,7 +46,8 @@ void Vsv::load(const gpu::Context& context, const Variant& variant) {
       gpu::Constant(4, variant.channels),
       gpu::Constant(5, k_table_rows),
       gpu::Constant(6, variant.direct),
-      gpu::Constant(7, options_.integral == VsvIntegral::factored)};
+      gpu::Constant(7, options_.integral == VsvIntegral::factored),
+      gpu::Constant(8, options_.volume.populate == epipolar::Populate::conservative)};
   phi_growth_ = gpu::Pipeline::compute(k_phi_growth_comp, std::array{grid[0], constants[3]});
   if (options_.integral != VsvIntegral::riemann) {
     build_table_ = gpu::Pipeline::compute(k_vsv_table_build_comp, std::span(constants).first<6>());
@@ -54,9 +55,9 @@ void Vsv::load(const gpu::Context& context, const Variant& variant) {
     table_ = gpu::Buffer(std::int64_t{k_table_rows} * (resolution.phi + 1) * variant.channels * 8);
     table_texels_ = {context.limits(), table_, gpu::Format::rg32f, "the table integral"};
   } else {
-    integrate_ = gpu::Pipeline::compute(
-        k_vsv_riemann_comp,
-        std::array{grid[0], grid[1], grid[2], constants[3], gpu::Constant(4, variant.light_textured)});
+    integrate_ = gpu::Pipeline::compute(k_vsv_riemann_comp,
+                                        std::array{grid[0], grid[1], grid[2], constants[3],
+                                                   gpu::Constant(4, variant.light_textured), constants[8]});
   }
   loaded_ = variant;
 }
