@@ -13,7 +13,7 @@ layout(binding = k_surface_unit) uniform sampler2D surface_image;
 layout(binding = k_grid_unit) uniform usamplerBuffer grid_texels;
 layout(binding = k_output_image, rgba32f) uniform writeonly image2D airlight_image;
 
-// How far before the plane, in cells of φ, a bit has to lie to be trusted: the shadow map places the surface by its texels.
+// How far before the plane, in cells of φ, a bit has to lie to be trusted.
 const float k_plane_slack = 0.25;
 // The same where whole voxels are dark, from the first point of the voxel at which the surface touches it.
 const float k_touch_slack = 0.25;
@@ -68,7 +68,9 @@ VsvRay vsv_ray(ivec2 pixel) {
                         phi_to_row_end(space, ray.angle, direction, surface, d_alpha, d_theta + half_plane, nearer));
       before = floor(cell_of_phi(ray.cells, max(ray.phi_end + d_phi, 0.0)) - k_touch_slack) - 1.0;
     } else {
-      float d_phi = phi_to_row_end(space, ray.angle, direction, surface, to_row + 0.5 * space.alpha_step, d_theta, 0.0);
+      // Half a texel of the shadow map, at the surface, is how far beside the light ray its depth may have been taken.
+      float nearer = length(surface.w * direction - light.from_eye) / light.shadow_map_size;
+      float d_phi = phi_to_row_end(space, ray.angle, direction, surface, to_row + 0.5 * space.alpha_step, d_theta, nearer);
       before = ceil(cell_of_phi(ray.cells, max(ray.phi_end + d_phi, 0.0)) - 0.5 - k_plane_slack) - 1.0;
     }
     ray.last_valid = int(clamp(before, -1.0, float(ray.last_cell)));
