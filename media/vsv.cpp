@@ -52,7 +52,7 @@ void Vsv::load(const gpu::Context& context, const Variant& variant) {
   if (loaded_ == variant) return;
   const epipolar::Resolution& resolution = volume_.grid().resolution();
   const auto grid = epipolar::resolution_constants(resolution);
-  const std::array<gpu::Constant, 9> constants = {
+  const std::array<gpu::Constant, 10> constants = {
       grid[0],
       grid[1],
       grid[2],
@@ -61,6 +61,7 @@ void Vsv::load(const gpu::Context& context, const Variant& variant) {
       gpu::Constant(5, table_rows(variant.rough)),
       gpu::Constant(6, variant.direct),
       gpu::Constant(7, options_.integral == VsvIntegral::factored),
+      gpu::Constant(8, options_.volume.populate == epipolar::Populate::conservative),
       gpu::Constant(9, variant.rough)};
   phi_growth_ = gpu::Pipeline::compute(k_phi_growth_comp, std::array{grid[0], constants[3]});
   if (options_.integral != VsvIntegral::riemann) {
@@ -70,9 +71,9 @@ void Vsv::load(const gpu::Context& context, const Variant& variant) {
         gpu::Buffer(std::int64_t{table_rows(variant.rough)} * (resolution.phi + 1) * variant.channels * 8);
     table_texels_ = {context.limits(), table_, gpu::Format::rg32f, "the table integral"};
   } else {
-    integrate_ = frame::ScreenPass(k_vsv_riemann_frag,
-                                   std::array{grid[0], grid[1], grid[2], constants[3],
-                                              gpu::Constant(4, variant.light_textured), constants[8]});
+    integrate_ = frame::ScreenPass(
+        k_vsv_riemann_frag, std::array{grid[0], grid[1], grid[2], constants[3],
+                                       gpu::Constant(4, variant.light_textured), constants[8], constants[9]});
   }
   loaded_ = variant;
 }

@@ -6,13 +6,20 @@
 #include "media/row_end.glsl"
 
 layout(constant_id = 3) const uint k_phase = 0;
+// Whether a voxel is dark as soon as a triangle touches it, or only where its centre is in shadow.
+layout(constant_id = 8) const uint k_whole_voxels = 0;
 
 layout(binding = k_surface_unit) uniform sampler2D surface_image;
 layout(binding = k_grid_unit) uniform usamplerBuffer grid_texels;
 layout(location = 0) out vec4 airlight;
 
-// How far before the plane, in cells of φ, a bit has to lie to be trusted: the shadow map places the surface by its texels.
+// How far before the plane, in cells of φ, a bit has to lie to be trusted.
 const float k_plane_slack = 0.25;
+// The same where whole voxels are dark, from the first point of the voxel at which the surface touches it.
+const float k_touch_slack = 0.25;
+// Of lengths: what voxelization adds to a triangle for single precision and for the curvature of a slab (conservative.glsl).
+// Where a wall is seen and lit at a grazing angle its voxels reach far before it.
+const float k_length_slack = 1e-4;
 
 struct VsvRay {
   EyeAngle angle;
@@ -49,10 +56,24 @@ VsvRay vsv_ray(ivec2 pixel) {
   ray.last_valid = int(ray.last_cell);
   ray.unknown = 0u;
   if (!ray.is_open) {
-    float d_alpha = space.alpha_min + (float(i) + 0.5) * space.alpha_step - ray.alpha;
-    float d_phi = phi_to_row_end(space, ray.angle, direction, surface, d_alpha, theta_to_centre(space, theta, j));
-    float row_end = cell_of_phi(ray.cells, max(ray.phi_end + d_phi, 0.0));
-    ray.last_valid = int(clamp(ceil(row_end - 0.5 - k_plane_slack) - 1.0, -1.0, float(ray.last_cell)));
+    float to_row = space.alpha_min + float(i) * space.alpha_step - ray.alpha;
+    float d_theta = theta_to_centre(space, theta, j);
+    float before;  // the last cell that the surface leaves alone
+    if (k_whole_voxels != 0u) {
+      // The surface itself makes its voxels dark, first where α is largest and at one of the plane's borders.
+      float half_plane = 0.5 * space.theta_step / (1.0 + space.theta_growth * cosine(theta_from_middle(space, theta)));
+      float nearer = k_length_slack * max(surface.w, space.distance);
+      float d_alpha = to_row + space.alpha_step;
+      float d_phi = min(phi_to_row_end(space, ray.angle, direction, surface, d_alpha, d_theta - half_plane, nearer),
+                        phi_to_row_end(space, ray.angle, direction, surface, d_alpha, d_theta + half_plane, nearer));
+      before = floor(cell_of_phi(ray.cells, max(ray.phi_end + d_phi, 0.0)) - k_touch_slack) - 1.0;
+    } else {
+      // Half a texel of the shadow map, at the surface, is how far beside the light ray its depth may have been taken.
+      float nearer = length(surface.w * direction - light.from_eye) / light.shadow_map_size;
+      float d_phi = phi_to_row_end(space, ray.angle, direction, surface, to_row + 0.5 * space.alpha_step, d_theta, nearer);
+      before = ceil(cell_of_phi(ray.cells, max(ray.phi_end + d_phi, 0.0)) - 0.5 - k_plane_slack) - 1.0;
+    }
+    ray.last_valid = int(clamp(before, -1.0, float(ray.last_cell)));
     // Lit where the surface faces the light.
     ray.unknown = dot(surface.xyz, light.from_eye) > surface.w * dot(surface.xyz, direction) ? 0u : 0xffffffffu;
   }

@@ -61,6 +61,50 @@ TEST(GBuffer, SeesTrianglesThatReachBehindTheEye) {
   EXPECT_LE(differing_pixels(floor, view), 5u);
 }
 
+/// A wall, seen from 9 m.
+scene::Geometry wall() {
+  scene::Geometry geometry;
+  tests::add_quad(geometry, {-9, -9, -5}, {18, 0, 0}, {0, 18, 0});
+  return geometry;
+}
+
+scene::View view_of_wall() {
+  scene::View view;
+  view.camera.eye = {0, 1.5, 4};
+  view.camera.target = {0, 1.5, 0};
+  view.lights[0].position = {0.3, 1.9, -3};
+  view.size = {64, 64};
+  return view;
+}
+
+TEST(GBuffer, OrdersTrianglesATenthOfAMillimetreBeforeTheEye) {
+  scene::Geometry geometry = wall();
+  for (const float depth : {2e-4f, 1e-4f})
+    tests::add_triangle(geometry, {-0.3f * depth, 1.5f - 0.2f * depth, 4 - depth},
+                        {0.3f * depth, 1.5f - 0.2f * depth, 4 - depth}, {0, 1.5f + 0.3f * depth, 4 - depth});
+  look_into_frame(geometry, view_of_wall(), 16, [&](const FrameInputs& inputs) {
+    EXPECT_NEAR(tests::distances(inputs)[32 * 64 + 32], 1e-4f, 1e-6f);
+  });
+}
+
+TEST(GBuffer, LooksPastATriangleOnWhichTheEyeIs) {
+  const scene::View view = view_of_wall();
+  const glm::vec3 eye(view.camera.eye);
+  const struct {
+    const char* eye_is;
+    glm::vec3 a, b, c;  // relative to it
+  } triangles[] = {{"at a corner", {0, 0, 0}, {0.3, 0.2, -2}, {-0.9, -0.6, -2}},
+                   {"on an edge", {0, 0, 0.4}, {0.3, 0.2, -2}, {0, 0, -2}},
+                   {"inside", {0, 0, 0.4}, {0.3, 0.2, -2}, {-0.3, -0.2, -2}}};
+  for (const auto& [eye_is, a, b, c] : triangles) {
+    scene::Geometry geometry = wall();
+    tests::add_triangle(geometry, eye + a, eye + b, eye + c);
+    look_into_frame(geometry, view, 16, [&](const FrameInputs& inputs) {
+      for (const float distance : tests::distances(inputs)) EXPECT_GT(distance, 8.9f) << eye_is;
+    });
+  }
+}
+
 TEST(GBuffer, FarFromTheOriginSeesTheSame) {
   scene::Geometry geometry;
   const glm::vec3 offset(1048576, -524288, 2097152);

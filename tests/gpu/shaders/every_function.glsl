@@ -174,7 +174,7 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   put(outputs, at, float(theta_from_middle(space, theta)));
   put(outputs, at, float(theta_to_centre(space, theta, 10u)));
   vec4 surface = vec4(-ray + 0.3f * l, t);
-  put(outputs, at, float(phi_to_row_end(space, angle, ray, surface, Angle(0.002f), Angle(-0.001f))));
+  put(outputs, at, float(phi_to_row_end(space, angle, ray, surface, Angle(0.002f), Angle(-0.001f), 0.0f)));
 
   // A triangle in front of the eye, of the size of its distance.
   vec3 a = t * ray;

@@ -199,5 +199,34 @@ TEST(DistanceToGeometry, IsZeroOnASurfaceAndInfiniteWithoutOne) {
   EXPECT_EQ(distance_to_geometry({}, make_clusters({}), {1, 2, 3}), std::numeric_limits<double>::infinity());
 }
 
+TEST(TrianglesWithin, AreThoseNoFartherThanTheReach) {
+  Random random(8);
+  const scene::Geometry geometry = random_triangles(random, 400, 10);
+  const Clusters clusters = make_clusters(geometry);
+  for (std::uint32_t place = 0; place < 400; ++place) {
+    const std::uint32_t triangle = clusters.order[place];
+    const glm::dvec3 point = point_of(geometry, triangle, 0.3, 0.4);
+    EXPECT_THAT(triangles_within(geometry, clusters, point, 1e-9), testing::Contains(place));
+    scene::Geometry alone;
+    alone.positions = geometry.positions;
+    alone.triangles = {geometry.triangles[triangle]};
+    const double distance = distance_to_geometry(alone, make_clusters(alone), {1, 2, 3});
+    EXPECT_THAT(triangles_within(geometry, clusters, {1, 2, 3}, distance * (1 + 1e-12)),
+                testing::Contains(place));
+    EXPECT_THAT(triangles_within(geometry, clusters, {1, 2, 3}, distance * (1 - 1e-12)),
+                testing::Not(testing::Contains(place)));
+  }
+}
+
+TEST(TrianglesWithin, OneWithoutAnAreaIsAsFarAsItsEdges) {
+  scene::Geometry needle;
+  needle.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  needle.triangles = {{0, 1, 2}};
+  const Clusters clusters = make_clusters(needle);
+  EXPECT_EQ(triangles_within(needle, clusters, {1.5, 0, 0}, 0.0).size(), 1u);
+  EXPECT_EQ(triangles_within(needle, clusters, {1.5, 1, 0}, 0.5).size(), 0u);
+  EXPECT_EQ(distance_to_geometry(needle, clusters, {1.5, 1, 0}), 1.0);
+}
+
 }  // namespace
 }  // namespace airlight::frame

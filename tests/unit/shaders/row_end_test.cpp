@@ -53,7 +53,7 @@ float by_shader(const Scene& scene) {
                        .cosine = static_cast<float>(std::cos(scene.alpha))};
   return static_cast<float>(phi_to_row_end(
       space, angle, glm::vec3(direction(scene.alpha, scene.theta)), glm::vec4(scene.normal, scene.w),
-      Angle(static_cast<float>(scene.d_alpha)), Angle(static_cast<float>(scene.d_theta))));
+      Angle(static_cast<float>(scene.d_alpha)), Angle(static_cast<float>(scene.d_theta)), 0.0f));
 }
 
 TEST(PhiToRowEnd, IsTheChangeOfPhiOnThePlane) {
@@ -107,8 +107,8 @@ TEST(PhiToRowEnd, OfARowParallelToThePlaneIsTheEndOfItsRay) {
   const EyeAngle angle{.sine = 0.6f, .cosine = 0.8f};
   // u is downwards: the pixel's ray meets the floor, and the row's is the axis itself.
   const Angle d_alpha(-0.75f);  // α' = 0 to first order: 0.6 − 0.75 · 0.8
-  const auto end = static_cast<float>(
-      phi_to_row_end(space, angle, {0.6f, 0.0f, 0.8f}, {-1.0f, 0.0f, 0.0f, 1.0f}, d_alpha, Angle(0.0f)));
+  const auto end = static_cast<float>(phi_to_row_end(space, angle, {0.6f, 0.0f, 0.8f},
+                                                     {-1.0f, 0.0f, 0.0f, 1.0f}, d_alpha, Angle(0.0f), 0.0f));
   EXPECT_TRUE(std::isfinite(end));
   EXPECT_GT(end, 1.0f) << "beyond any cell in question";
 }
@@ -133,13 +133,26 @@ TEST(PhiToRowEnd, IsFiniteAndOnTheRightSideHoweverThePlaneIsGrazed) {
   }
 }
 
+TEST(PhiToRowEnd, OfANearerPlaneIsThatOfThePlaneThere) {
+  // A wall across the axis, one metre away and half a metre: the ray of 45° ends at φ = 45° and at
+  // atan(0.5/1.5).
+  EpipolarBlock space{};
+  space.axis = {0.0f, 0.0f, 1.0f};
+  space.distance = 2.0f;
+  const float half = std::sqrt(0.5f);
+  const auto nearer =
+      static_cast<float>(phi_to_row_end(space, {.sine = half, .cosine = half}, {half, 0.0f, half},
+                                        {0.0f, 0.0f, -1.0f, 1.0f / half}, Angle(0.0f), Angle(0.0f), 0.5f));
+  EXPECT_NEAR(nearer, std::atan(0.5 / 1.5) - 0.25 * std::numbers::pi, 1e-6);
+}
+
 TEST(PhiToRowEnd, IsZeroWithoutAnythingToGoBy) {
   // The eye in the plane, and both rays too.
   EpipolarBlock space{};
   space.axis = {0.0f, 0.0f, 1.0f};
   space.distance = 2.0f;
   EXPECT_EQ(phi_to_row_end(space, {.sine = 0.6f, .cosine = 0.8f}, {0.6f, 0.0f, 0.8f},
-                           {0.0f, 1.0f, 0.0f, 1.0f}, Angle(0.001f), Angle(0.0f)),
+                           {0.0f, 1.0f, 0.0f, 1.0f}, Angle(0.001f), Angle(0.0f), 0.0f),
             Angle(0.0f));
 }
 
