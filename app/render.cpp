@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <future>
 
 #include <fmt/format.h>
 
@@ -52,11 +53,13 @@ void render(const Options& options) {
     frame::Frame frame(context, subject.scene.geometry, shadow_map);
     quality::SharedReference reference(subject.scene.geometry, subject.view, progress.follower(),
                                        options.get("cache").value_or(""));
-    const auto airlight = volume.make(context, reference);
-    const auto shadow = surface.make(context, reference);
-    gpu::StageTimer off(nullptr);
-    frame.render(subject.view, *shadow, *airlight, off);
-    images = frame.read();
+    {
+      const auto airlight = volume.make(context, reference);
+      const auto shadow = surface.make(context, reference);
+      gpu::StageTimer off(nullptr);
+      frame.render(subject.view, *shadow, *airlight, off);
+    }
+    images = frame.take();
   }
   const float exposure = subject.exposure ? *subject.exposure : quality::automatic_exposure(images.radiance);
 
@@ -78,8 +81,10 @@ void render(const Options& options) {
   std::map<std::string, std::string> metadata;
   for (const auto& [name, value] : configuration) metadata["airlight." + name] = value;
 
-  quality::write_exr(output, quality::exr_image(images, metadata));
-  quality::write_png(preview, images.radiance, images.size, exposure);
+  auto preview_is_written = std::async(
+      std::launch::async, [&] { quality::write_png(preview, images.radiance, images.size, exposure); });
+  quality::write_frame(output, images, metadata);
+  preview_is_written.get();
   if (!options.quiet) {
     say(fmt::format("{} and {} written, exposure {:.4g}{}", output.string(), preview.string(), exposure,
                     subject.exposure ? "" : " (automatic: the 95th percentile maps to 0.8)"));
