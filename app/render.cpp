@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "app/commands.h"
+#include "app/memory.h"
 #include "app/output.h"
 #include "frame/frame.h"
 #include "quality/pictures.h"
@@ -44,6 +45,10 @@ void render(const Options& options) {
   require_writable(preview);
   if (!options.quiet) say_warnings(subject.scene.report);
 
+  require_memory({.size = subject.view.size,
+                  .bytes_per_pixel = k_bytes_of_render,
+                  .shadow_map = quality::is_read("shadow-map", volumes, surfaces) ? shadow_map : 0,
+                  .triangles = subject.scene.geometry.triangles.size()});
   frame::FrameImages images;
   std::string renderer;
   {
