@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/commands.h"
+#include "app/memory.h"
 #include "app/output.h"
 #include "gpu/context.h"
 #include "quality/results.h"
@@ -18,6 +19,7 @@ void list_scenes() {
 }
 
 void print_info() {
+  require_memory({});
   const gpu::Context context;
   const gpu::Limits& limits = context.limits();
   print(fmt::format(

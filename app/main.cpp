@@ -1,3 +1,4 @@
+#include <exception>
 #include <new>
 #include <set>
 #include <string>
@@ -157,5 +158,8 @@ int main(int argc, char** argv) {
     return fail(error.what(), error.exit_code);
   } catch (const std::bad_alloc&) {
     return fail("memory: there is not enough; ask for a smaller image or grid", ExitCode::driver);
+  } catch (const std::exception& error) {
+    return fail(fmt::format("{}; this is a fault of the program: please report the command", error.what()),
+                ExitCode::driver);
   }
 }

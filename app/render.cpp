@@ -1,8 +1,10 @@
 #include <filesystem>
+#include <future>
 
 #include <fmt/format.h>
 
 #include "app/commands.h"
+#include "app/memory.h"
 #include "app/output.h"
 #include "frame/frame.h"
 #include "quality/pictures.h"
@@ -43,6 +45,10 @@ void render(const Options& options) {
   require_writable(preview);
   if (!options.quiet) say_warnings(subject.scene.report);
 
+  require_memory({.size = subject.view.size,
+                  .bytes_per_pixel = k_bytes_of_render,
+                  .shadow_map = quality::is_read("shadow-map", volumes, surfaces) ? shadow_map : 0,
+                  .triangles = subject.scene.geometry.triangles.size()});
   frame::FrameImages images;
   std::string renderer;
   {
@@ -52,11 +58,13 @@ void render(const Options& options) {
     frame::Frame frame(context, subject.scene.geometry, shadow_map);
     quality::SharedReference reference(subject.scene.geometry, subject.view, progress.follower(),
                                        options.get("cache").value_or(""));
-    const auto airlight = volume.make(context, reference);
-    const auto shadow = surface.make(context, reference);
-    gpu::StageTimer off(nullptr);
-    frame.render(subject.view, *shadow, *airlight, off);
-    images = frame.read();
+    {
+      const auto airlight = volume.make(context, reference);
+      const auto shadow = surface.make(context, reference);
+      gpu::StageTimer off(nullptr);
+      frame.render(subject.view, *shadow, *airlight, off);
+    }
+    images = frame.take();
   }
   const float exposure = subject.exposure ? *subject.exposure : quality::automatic_exposure(images.radiance);
 
@@ -78,8 +86,10 @@ void render(const Options& options) {
   std::map<std::string, std::string> metadata;
   for (const auto& [name, value] : configuration) metadata["airlight." + name] = value;
 
-  quality::write_exr(output, quality::exr_image(images, metadata));
-  quality::write_png(preview, images.radiance, images.size, exposure);
+  auto preview_is_written = std::async(
+      std::launch::async, [&] { quality::write_png(preview, images.radiance, images.size, exposure); });
+  quality::write_frame(output, images, metadata);
+  preview_is_written.get();
   if (!options.quiet) {
     say(fmt::format("{} and {} written, exposure {:.4g}{}", output.string(), preview.string(), exposure,
                     subject.exposure ? "" : " (automatic: the 95th percentile maps to 0.8)"));

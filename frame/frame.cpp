@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -11,6 +10,7 @@
 #include "scene/error.h"
 
 #include "spirv/frame/composite_frag.h"
+#include "spirv/frame/idle_comp.h"
 
 namespace airlight::frame {
 namespace {
@@ -18,29 +18,65 @@ namespace {
 using scene::Error;
 using scene::ExitCode;
 
-void require_finite(const std::vector<glm::vec3>& image, glm::ivec2 size, const char* name) {
-  const auto bad = std::find_if(image.begin(), image.end(), [](const glm::vec3& value) {
-    return !std::isfinite(value.x) || !std::isfinite(value.y) || !std::isfinite(value.z);
-  });
-  if (bad == image.end()) return;
-  const auto index = static_cast<int>(bad - image.begin());
-  throw Error(ExitCode::driver, name,
-              fmt::format("pixel ({}, {}) is not finite", index % size.x, index / size.x),
-              "this is a fault of the program: please report the command");
+/// Reads an image a few rows at a time, so that no second copy of it is ever held.
+/// @param take called with each pixel's index and texel
+template <typename T, typename Take>
+void read_pixels(const gpu::Texture& texture, const Take& take) {
+  constexpr int k_rows = 64;
+  const glm::ivec2 size = texture.size();
+  const auto width = static_cast<std::size_t>(size.x);
+  std::vector<T> rows(k_rows * width);
+  for (int first = 0; first < size.y; first += k_rows) {
+    const int count = std::min(k_rows, size.y - first);
+    texture.read_rows(first, count, rows.data());
+    const std::size_t offset = static_cast<std::size_t>(first) * width;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count) * width; ++i) take(offset + i, rows[i]);
+  }
+}
+
+std::size_t pixel_count(const gpu::Texture& texture) {
+  return static_cast<std::size_t>(texture.size().x) * static_cast<std::size_t>(texture.size().y);
 }
 
 std::vector<glm::vec3> read_rgb(const gpu::Texture& texture, const char* name) {
-  const std::vector<glm::vec4> rgba = texture.read<glm::vec4>();
-  std::vector<glm::vec3> rgb(rgba.begin(), rgba.end());
-  require_finite(rgb, texture.size(), name);
+  std::vector<glm::vec3> rgb;
+  rgb.reserve(pixel_count(texture));
+  read_pixels<glm::vec4>(texture, [&](std::size_t pixel, const glm::vec4& rgba) {
+    // Infinity and NaN times 0 are NaN.
+    if (!(0.0f * rgba.r + 0.0f * rgba.g + 0.0f * rgba.b == 0.0f)) {
+      const auto index = static_cast<int>(pixel);
+      throw Error(
+          ExitCode::driver, name,
+          fmt::format("pixel ({}, {}) is not finite", index % texture.size().x, index / texture.size().x),
+          "this is a fault of the program: please report the command");
+    }
+    rgb.emplace_back(rgba);
+  });
   return rgb;
 }
 
-std::vector<float> read_visibility(const gpu::Texture& texture) {
-  if (texture.format() == gpu::Format::r32f) return texture.read<float>();
-  std::vector<float> means;
-  for (const glm::vec4& rgba : texture.read<glm::vec4>()) means.push_back((rgba.r + rgba.g + rgba.b) / 3.0f);
-  return means;
+std::vector<float> read_distance(const gpu::Texture& surfaces) {
+  std::vector<float> distance;
+  distance.reserve(pixel_count(surfaces));
+  read_pixels<glm::vec4>(surfaces,
+                         [&](std::size_t, const glm::vec4& surface) { distance.push_back(surface.w); });
+  return distance;
+}
+
+/// 0 where no surface is seen.
+std::vector<float> read_visibility(const gpu::Texture& texture, const std::vector<float>& distance) {
+  std::vector<float> visibility;
+  visibility.reserve(distance.size());
+  const auto add = [&](std::size_t pixel, float value) {
+    visibility.push_back(distance[pixel] == 0.0f ? 0.0f : value);
+  };
+  if (texture.format() == gpu::Format::r32f)
+    read_pixels<float>(texture, add);
+  else
+    read_pixels<glm::vec4>(texture, [&](std::size_t pixel, const glm::vec4& rgba) {
+      add(pixel, (rgba.r + rgba.g + rgba.b) / 3.0f);
+    });
+  return visibility;
 }
 
 double distance_to_nearest_light(const scene::View& view) {
@@ -157,14 +193,31 @@ FrameImages Frame::read() const {
   images.size = radiance_.size();
   images.radiance = read_rgb(radiance_, "radiance");
   images.airlight = read_rgb(airlight_, "airlight");
-  for (const glm::vec4& surface : gbuffer_->surfaces().read<glm::vec4>())
-    images.distance.push_back(surface.w);
-  for (const gpu::Texture& texture : visibility_) {
-    std::vector<float>& visibility = images.visibility.emplace_back(read_visibility(texture));
-    for (std::size_t i = 0; i < visibility.size(); ++i) {
-      if (images.distance[i] == 0.0f) visibility[i] = 0.0f;
-    }
+  images.distance = read_distance(gbuffer_->surfaces());
+  for (const gpu::Texture& texture : visibility_)
+    images.visibility.push_back(read_visibility(texture, images.distance));
+  context_.check();
+  return images;
+}
+
+FrameImages Frame::take() {
+  FrameImages images;
+  images.size = radiance_.size();
+  // Drivers keep what is bound, until something runs without it.
+  gpu::unbind_textures();
+  gpu::Pipeline::compute(k_idle_comp).dispatch({1, 1, 1});
+  // What frees the most goes first.
+  images.distance = read_distance(gbuffer_->surfaces());
+  gbuffer_.reset();
+  light_airlight_ = {};
+  for (gpu::Texture& texture : visibility_) {
+    images.visibility.push_back(read_visibility(texture, images.distance));
+    texture = {};
   }
+  images.radiance = read_rgb(radiance_, "radiance");
+  radiance_ = {};
+  images.airlight = read_rgb(airlight_, "airlight");
+  airlight_ = {};
   context_.check();
   return images;
 }

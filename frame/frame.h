@@ -44,6 +44,9 @@ class Frame {
   /// @throws scene::Error (driver) when it holds NaN or infinity: never shown as a colour.
   FrameImages read() const;
 
+  /// As `read`, and frees each image once it is read: large ones are never held twice.
+  FrameImages take();
+
   /// GPU memory of what the last frame used beside its methods' own, by name.
   std::map<std::string, std::int64_t> bytes() const { return resources_.bytes(); }
 

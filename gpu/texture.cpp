@@ -65,6 +65,14 @@ void delete_texture(unsigned name) {
   glDeleteTextures(1, &name);
 }
 
+void unbind_textures() {
+  GLint units = 0, images = 0;
+  glGetIntegerv(GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS, &units);
+  glGetIntegerv(GL_MAX_IMAGE_UNITS, &images);
+  glBindTextures(0, units, nullptr);
+  glBindImageTextures(0, images, nullptr);
+}
+
 bool is_float(Format format) {
   const GLenum type = format_info(format).type;
   return type != GL_UNSIGNED_INT;
@@ -146,6 +154,13 @@ void Texture::read_bytes(int level, void* destination, std::size_t bytes) const 
   const FormatInfo info = format_info(format_);
   glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
   glGetTextureImage(name(), level, info.channels, info.type, static_cast<GLsizei>(bytes), destination);
+}
+
+void Texture::read_row_bytes(int first, int count, void* destination, std::size_t bytes) const {
+  const FormatInfo info = format_info(format_);
+  glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+  glGetTextureSubImage(name(), 0, 0, first, 0, size_.x, count, 1, info.channels, info.type,
+                       static_cast<GLsizei>(bytes), destination);
 }
 
 TexelView::TexelView(const Limits& limits, const Buffer& buffer, Format format, const std::string& what) {

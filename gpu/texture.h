@@ -31,6 +31,9 @@ enum class Format {
   depth32f_stencil8
 };
 
+/// Leaves no texture bound for sampling or as an image.
+void unbind_textures();
+
 /// Whether its values are floating-point numbers, of colour or of depth.
 bool is_float(Format format);
 
@@ -90,8 +93,18 @@ class Texture {
     return values;
   }
 
+  /// As `read`, of some rows of an image's first level.
+  /// @param values room for `count` rows
+  template <typename T>
+  void read_rows(int first, int count, T* values) const {
+    assert(sizeof(T) == transfer_bytes());
+    read_row_bytes(first, count, values,
+                   static_cast<std::size_t>(count) * static_cast<std::size_t>(size_.x) * sizeof(T));
+  }
+
  private:
   std::size_t transfer_bytes() const;  ///< of a texel that is written or read
+  void read_row_bytes(int first, int count, void* destination, std::size_t bytes) const;
   void read_bytes(int level, void* destination, std::size_t bytes) const;
 
   Handle<delete_texture> handle_;

@@ -56,7 +56,7 @@ Exposure write_truth(const CompareRequest& request, Measurer& measurer, const Tr
   auto metadata =
       metadata_of(request, volume.spec, surface.spec, command_of(request, "reference", volume, surface));
   metadata["airlight.bound"] = fmt::format("{}", truth.figures.bound);
-  write_exr(request.directory / "reference.exr", exr_image(images, metadata));
+  write_frame(request.directory / "reference.exr", images, metadata);
   write_png(request.directory / "reference.png", images.radiance, images.size, exposure.value);
   return exposure;
 }
@@ -64,7 +64,7 @@ Exposure write_truth(const CompareRequest& request, Measurer& measurer, const Tr
 void write_images(const CompareRequest& request, const Run& run, const frame::FrameImages& images,
                   const Truth& truth, const Exposure& exposure) {
   const auto file = [&](const char* ending) { return request.directory / (run.name + ending); };
-  write_exr(file(".exr"), exr_image(images, metadata_of(request, run.volume, run.surface, run.command)));
+  write_frame(file(".exr"), images, metadata_of(request, run.volume, run.surface, run.command));
   write_png(file(".png"), images.radiance, images.size, exposure.value);
   write_png(file("_error.png"), error_colours(images.airlight, truth.airlight), images.size, 1.0f);
 }

@@ -1,11 +1,13 @@
 #include "quality/image_io.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <exception>
 #include <system_error>
+#include <thread>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -13,6 +15,7 @@
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfThreading.h>
 #include <fmt/format.h>
 #include <png.h>
 
@@ -27,29 +30,42 @@ namespace {
 constexpr std::uintmax_t k_largest_expansion = 2048;
 constexpr std::uintmax_t k_small_image = 64 << 20;  ///< bytes
 
+/// From here on a preview is compressed fast rather than well.
+constexpr std::size_t k_large_preview = 1 << 20;  ///< pixels
+
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& problem,
                        const std::string& remedy = {}) {
   throw scene::Error(scene::ExitCode::bad_file, file.string(), problem, remedy);
 }
 
-void require_finite(const std::filesystem::path& file, const std::string& channel,
-                    std::span<const float> values, int width) {
-  const auto culprit =
-      std::find_if(values.begin(), values.end(), [](float value) { return !std::isfinite(value); });
-  if (culprit == values.end()) return;
-  const auto pixel = culprit - values.begin();
-  fail(file,
-       fmt::format("channel {} is {} at pixel ({}, {})", channel, *culprit, pixel % width, pixel / width));
+void require_finite(const std::filesystem::path& file, const std::string& name,
+                    const ImageView::Channel& channel, glm::ivec2 size) {
+  const auto width = static_cast<std::size_t>(size.x);
+  for (std::size_t y = 0; y < static_cast<std::size_t>(size.y); ++y) {
+    const float* row = channel.first + y * width * channel.step;
+    float sum = 0.0f;  // NaN where a value is infinite or NaN; a whole row is summed up at once
+    for (std::size_t x = 0; x < width; ++x) sum += 0.0f * row[x * channel.step];
+    if (sum == 0.0f) continue;
+    std::size_t x = 0;
+    while (std::isfinite(row[x * channel.step])) ++x;
+    fail(file, fmt::format("channel {} is {} at pixel ({}, {})", name, row[x * channel.step], x, y));
+  }
 }
 
 std::size_t pixel_count(glm::ivec2 size) {
   return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
 }
 
-/// A slice whose memory begins at the first pixel of a data window.
-Imf::Slice slice(float* values, const Imath::Box2i& window) {
+/// A slice whose memory begins at the first pixel of a data window. Writing takes the same one as reading,
+/// and leaves the values alone.
+Imf::Slice slice(const ImageView::Channel& channel, const Imath::Box2i& window) {
   const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
-  return Imf::Slice::Make(Imf::FLOAT, values, window, sizeof(float), width * sizeof(float));
+  const std::size_t step = channel.step * sizeof(float);
+  return Imf::Slice::Make(Imf::FLOAT, const_cast<float*>(channel.first), window, step, width * step);
+}
+
+int thread_count() {
+  return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
 Image read_exr_unchecked(const std::filesystem::path& file) {
@@ -79,7 +95,7 @@ Image read_exr_unchecked(const std::filesystem::path& file) {
   for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
     std::vector<float>& values = image.channels[channel.name()];
     values.resize(pixel_count(image.size));
-    frame.insert(channel.name(), slice(values.data(), window));
+    frame.insert(channel.name(), slice({values.data(), 1}, window));
   }
   input.setFrameBuffer(frame);
   input.readPixels(window.min.y, window.max.y);
@@ -93,34 +109,60 @@ Image read_exr_unchecked(const std::filesystem::path& file) {
 }
 
 /// The sRGB transfer function, IEC 61966-2-1: linear [0, 1] to encoded [0, 1].
-float srgb_from_linear(float linear) {
-  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+double srgb_from_linear(double linear) {
+  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
 }
+
+/// Encodes linear values as 8-bit sRGB, rounded to the nearest, by a table.
+class SrgbEncoder {
+ public:
+  SrgbEncoder() {
+    for (std::size_t i = 0; i <= k_steps; ++i)
+      table_[i] = static_cast<std::uint8_t>(
+          std::lround(255.0 * srgb_from_linear(static_cast<double>(i) / static_cast<double>(k_steps))));
+  }
+  std::uint8_t operator()(float linear) const {
+    // Clamps what is not a number to 0, too: it is refused elsewhere.
+    const float scaled = linear > 0.0f ? std::min(linear, 1.0f) * static_cast<float>(k_steps) : 0.0f;
+    return table_[static_cast<std::size_t>(scaled + 0.5f)];
+  }
+
+ private:
+  /// The darkest step of sRGB is 1/(255 · 12.92) wide: 20 of these.
+  static constexpr std::size_t k_steps = 1 << 16;
+  std::array<std::uint8_t, k_steps + 1> table_;
+};
 
 }  // namespace
 
-void write_exr(const std::filesystem::path& file, const Image& image) {
+void write_exr(const std::filesystem::path& file, const ImageView& image) {
   if (image.size.x < 1 || image.size.y < 1) fail(file, "the image has no pixels");
-  for (const auto& [name, values] : image.channels) {
-    assert(values.size() == pixel_count(image.size));
-    require_finite(file, name, values, image.size.x);
-  }
+  for (const auto& [name, channel] : image.channels) require_finite(file, name, channel, image.size);
   try {
     Imf::Header header(image.size.x, image.size.y);
-    header.compression() = Imf::ZIP_COMPRESSION;
+    header.compression() = Imf::RLE_COMPRESSION;
     Imf::FrameBuffer frame;
-    for (const auto& [name, values] : image.channels) {
+    for (const auto& [name, channel] : image.channels) {
       header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-      // Writing takes the same slice as reading, and leaves the values alone.
-      frame.insert(name, slice(const_cast<float*>(values.data()), header.dataWindow()));
+      frame.insert(name, slice(channel, header.dataWindow()));
     }
     for (const auto& [name, text] : image.metadata) header.insert(name, Imf::StringAttribute(text));
-    Imf::OutputFile output(file.c_str(), header);
+    if (Imf::globalThreadCount() == 0) Imf::setGlobalThreadCount(thread_count());
+    Imf::OutputFile output(file.c_str(), header, thread_count());
     output.setFrameBuffer(frame);
     output.writePixels(image.size.y);
   } catch (const std::exception& error) {
     fail(file, fmt::format("cannot be written: {}", error.what()));
   }
+}
+
+void write_exr(const std::filesystem::path& file, const Image& image) {
+  ImageView view{.size = image.size, .channels = {}, .metadata = image.metadata};
+  for (const auto& [name, values] : image.channels) {
+    assert(values.size() == pixel_count(image.size));
+    view.channels[name] = {values.data(), 1};
+  }
+  write_exr(file, view);
 }
 
 Image read_exr(const std::filesystem::path& file) {
@@ -132,7 +174,8 @@ Image read_exr(const std::filesystem::path& file) {
   } catch (const std::exception& error) {
     fail(file, fmt::format("cannot be read as OpenEXR: {}", error.what()));
   }
-  for (const auto& [name, values] : image.channels) require_finite(file, name, values, image.size.x);
+  for (const auto& [name, values] : image.channels)
+    require_finite(file, name, {values.data(), 1}, image.size);
   return image;
 }
 
@@ -140,16 +183,16 @@ void write_png(const std::filesystem::path& file, std::span<const glm::vec3> rad
                float exposure) {
   if (size.x < 1 || size.y < 1) fail(file, "the image has no pixels");
   assert(radiance.size() == pixel_count(size));
-  std::vector<std::uint8_t> encoded;
-  encoded.reserve(3 * radiance.size());
+  static const SrgbEncoder encode;
+  std::vector<std::uint8_t> encoded(3 * radiance.size());
   for (std::size_t i = 0; i < radiance.size(); ++i) {
     for (int channel = 0; channel < 3; ++channel) {
-      if (!std::isfinite(radiance[i][channel])) {
-        fail(file, fmt::format("channel {} is {} at pixel ({}, {})", "RGB"[channel], radiance[i][channel],
+      const float value = radiance[i][channel];
+      if (!std::isfinite(value)) {
+        fail(file, fmt::format("channel {} is {} at pixel ({}, {})", "RGB"[channel], value,
                                i % static_cast<std::size_t>(size.x), i / static_cast<std::size_t>(size.x)));
       }
-      const float linear = std::clamp(exposure * radiance[i][channel], 0.0f, 1.0f);
-      encoded.push_back(static_cast<std::uint8_t>(std::lround(255.0f * srgb_from_linear(linear))));
+      encoded[3 * i + static_cast<std::size_t>(channel)] = encode(exposure * value);
     }
   }
   png_image image{};
@@ -157,6 +200,7 @@ void write_png(const std::filesystem::path& file, std::span<const glm::vec3> rad
   image.width = static_cast<png_uint_32>(size.x);
   image.height = static_cast<png_uint_32>(size.y);
   image.format = PNG_FORMAT_RGB;
+  if (pixel_count(size) > k_large_preview) image.flags = PNG_IMAGE_FLAG_FAST;
   if (!png_image_write_to_file(&image, file.c_str(), 0, encoded.data(), 0, nullptr)) {
     fail(file, fmt::format("cannot be written: {}", image.message));
   }

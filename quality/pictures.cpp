@@ -2,29 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace airlight::quality {
 
-Image exr_image(const frame::FrameImages& images, std::map<std::string, std::string> metadata) {
-  Image image{.size = images.size, .channels = {}, .metadata = std::move(metadata)};
+void write_frame(const std::filesystem::path& file, const frame::FrameImages& images,
+                 const std::map<std::string, std::string>& metadata) {
+  ImageView view{.size = images.size, .channels = {}, .metadata = metadata};
   const auto add = [&](const std::string& prefix, const std::vector<glm::vec3>& values) {
-    for (int channel = 0; channel < 3; ++channel) {
-      std::vector<float>& plane = image.channels[prefix + "RGB"[channel]];
-      plane.reserve(values.size());
-      for (const glm::vec3& value : values) plane.push_back(value[channel]);
-    }
+    for (int channel = 0; channel < 3; ++channel)
+      view.channels[prefix + "RGB"[channel]] = {&values[0][channel], 3};
   };
   add("", images.radiance);
   add("airlight.", images.airlight);
-  std::vector<float>& visibility = image.channels["surface.Y"];
-  visibility.resize(images.distance.size());
-  for (const std::vector<float>& of_light : images.visibility) {
-    for (std::size_t i = 0; i < visibility.size(); ++i)
-      visibility[i] += of_light[i] / static_cast<float>(images.visibility.size());
+  view.channels["distance.Y"] = {images.distance.data(), 1};
+  std::vector<float> mean;
+  if (images.visibility.size() > 1) {
+    mean.resize(images.distance.size());
+    for (const std::vector<float>& of_light : images.visibility) {
+      for (std::size_t i = 0; i < mean.size(); ++i)
+        mean[i] += of_light[i] / static_cast<float>(images.visibility.size());
+    }
   }
-  image.channels["distance.Y"] = images.distance;
-  return image;
+  view.channels["surface.Y"] = {mean.empty() ? images.visibility[0].data() : mean.data(), 1};
+  write_exr(file, view);
 }
 
 float automatic_exposure(const std::vector<glm::vec3>& radiance) {
@@ -32,9 +32,12 @@ float automatic_exposure(const std::vector<glm::vec3>& radiance) {
   std::vector<float> brightest;
   brightest.reserve(radiance.size());
   for (const glm::vec3& value : radiance) brightest.push_back(std::max({value.x, value.y, value.z}));
-  std::sort(brightest.begin(), brightest.end());
-  const float percentile = brightest[(brightest.size() - 1) * 95 / 100];
-  const float white = percentile > 0.0f ? percentile : brightest.back();
+  const auto rank = static_cast<std::ptrdiff_t>((brightest.size() - 1) * 95 / 100);
+  std::nth_element(brightest.begin(), brightest.begin() + rank, brightest.end());
+  const float percentile = brightest[static_cast<std::size_t>(rank)];
+  // Those above it come after it.
+  const float white =
+      percentile > 0.0f ? percentile : *std::max_element(brightest.begin() + rank, brightest.end());
   const float exposure = 0.8f / white;
   return white > 0.0f && std::isfinite(exposure) ? exposure : 1.0f;
 }

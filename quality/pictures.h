@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -9,8 +10,11 @@
 
 namespace airlight::quality {
 
-/// An image with the channels R,G,B; airlight.R,G,B; surface.Y, the mean over lights; distance.Y.
-Image exr_image(const frame::FrameImages& images, std::map<std::string, std::string> metadata);
+/// Writes a frame as an EXR image with the channels R,G,B; airlight.R,G,B; surface.Y, the mean over lights;
+/// distance.Y.
+/// @throws as write_exr
+void write_frame(const std::filesystem::path& file, const frame::FrameImages& images,
+                 const std::map<std::string, std::string>& metadata);
 
 /// The exposure that maps the 95th percentile of the pixels' largest channel to 0.8; where that is black, the
 /// largest value; 1 for a black image.

@@ -1,6 +1,10 @@
 #include "quality/pictures.h"
 
+#include <filesystem>
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 namespace airlight::quality {
 namespace {
@@ -47,14 +51,17 @@ TEST(ErrorColours, AreFullAgainstABlackReference) {
   EXPECT_EQ(error_colours({glm::vec3(1e-6f)}, black)[0].g, 0.0f);
 }
 
-TEST(ExrImage, HasTheChannelsOfARender) {
+TEST(Frame, HasItsChannelsInAFile) {
   frame::FrameImages images;
   images.size = {1, 1};
   images.radiance = {{1, 2, 3}};
   images.airlight = {{4, 5, 6}};
   images.visibility = {{1}};
   images.distance = {7};
-  const Image image = exr_image(images, {{"airlight.scene", "hall"}});
+  const auto file = std::filesystem::temp_directory_path() / fmt::format("airlight-frame-{}.exr", getpid());
+  write_frame(file, images, {{"airlight.scene", "hall"}});
+  const Image image = read_exr(file);
+  std::filesystem::remove(file);
   EXPECT_EQ(image.channels.at("B"), std::vector<float>{3});
   EXPECT_EQ(image.channels.at("airlight.R"), std::vector<float>{4});
   EXPECT_EQ(image.channels.at("surface.Y"), std::vector<float>{1});

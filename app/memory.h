@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+
+#include <glm/glm.hpp>
+
+namespace airlight::app {
+
+/// What there is to hold, roughly.
+struct Holding {
+  glm::ivec2 size{0};               ///< of the image; 0 for none
+  std::size_t bytes_per_pixel = 0;  ///< on a driver that runs on the CPU, which has its images in this memory
+  int shadow_map = 0;               ///< side of a face of the shadow map [texels]; 0 for none
+  std::size_t triangles = 0;
+};
+
+/// A frame's images, and one copy of each in turn as it is read; measured at 4096².
+constexpr std::size_t k_bytes_of_render = 66;
+
+/// The same and the truth, a run's images, and what its errors are found in.
+constexpr std::size_t k_bytes_of_compare = 190;
+
+/// Out of memory a driver aborts, or says that it is not there: what cannot fit is refused before it is
+/// woken.
+/// @throws scene::Error (driver) naming the size, what it takes and what is left: of the address space that
+/// `ulimit -v` allows, or of the machine's memory
+void require_memory(const Holding& holding);
+
+}  // namespace airlight::app
