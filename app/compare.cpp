@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -108,6 +109,12 @@ void compare(const Options& options) {
       std::all_of(comparison.runs.begin(), comparison.runs.end(),
                   [](const quality::Run& run) { return run.debug_images.empty(); })) {
     say("airlight: warning: --debug: no --volume has pictures to show; vsv has");
+  }
+  // Those of the scene are said already.
+  if (!options.quiet) {
+    const std::size_t said = subject.scene.report.warnings.size();
+    for (const std::string& warning : std::span(comparison.report.warnings).subspan(said))
+      say("airlight: warning: " + warning);
   }
   const std::string results = quality::results_json(comparison);
   quality::write_text(folder / "results.json", results);

@@ -42,23 +42,30 @@ std::optional<double> addresses_left() {
 }  // namespace
 
 void require_memory(const Holding& holding) {
+  constexpr int k_largest_face = 16384;  // more, the driver may refuse by itself
   const double pixels = static_cast<double>(holding.size.x) * static_cast<double>(holding.size.y);
   const double image = pixels * static_cast<double>(holding.bytes_per_pixel);
-  const double side = holding.shadow_map;
-  const double rest =
-      6.0 * sizeof(float) * side * side + k_bytes_per_triangle * static_cast<double>(holding.triangles);
+  const double side = holding.shadow_map > k_largest_face ? 0.0 : holding.shadow_map;
+  const double shadow_map = 6.0 * sizeof(float) * side * side;
+  const double scene = k_bytes_per_triangle * static_cast<double>(holding.triangles);
 
   const auto require = [&](double driver, std::optional<double> left, const char* of_what,
                            const char* remedy) {
-    if (!left || driver + rest + image <= *left) return;
-    const bool is_image = driver + rest <= *left;
-    const std::string what =
-        is_image ? fmt::format("an image of {}x{} pixels takes", holding.size.x, holding.size.y)
-                 : std::string("the driver and the scene alone take");
-    throw scene::Error(scene::ExitCode::driver, is_image ? "--size" : "memory",
-                       fmt::format("{} about {:.2g} GB, and {:.2g} GB {}", what,
-                                   1e-9 * (driver + rest + (is_image ? image : 0.0)), 1e-9 * *left, of_what),
-                       fmt::format("{}{}", is_image ? "ask for a smaller image, or " : "", remedy));
+    if (!left || driver + scene + shadow_map + image <= *left) return;
+    std::string where = "memory", what = "the driver and the scene alone take", ask;
+    double bytes = driver + scene;
+    if (bytes <= *left) {
+      bytes += image + shadow_map;
+      const bool is_image = image >= shadow_map;
+      where = is_image ? "--size" : "--shadow-map";
+      what = is_image ? fmt::format("an image of {}x{} pixels takes", holding.size.x, holding.size.y)
+                      : fmt::format("a shadow map of {} texels a side takes", holding.shadow_map);
+      ask = fmt::format("ask for a smaller {}, or ", is_image ? "image" : "one");
+    }
+    throw scene::Error(
+        scene::ExitCode::driver, where,
+        fmt::format("{} about {:.2g} GB, and {:.2g} GB {}", what, 1e-9 * bytes, 1e-9 * *left, of_what),
+        ask + remedy);
   };
   require(k_driver_addresses, addresses_left(), "are left of the address space (ulimit -v)", "allow more");
   require(k_driver_bytes, proc_bytes("/proc/meminfo", "MemAvailable:"), "of memory are free", "free some");

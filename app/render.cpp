@@ -7,6 +7,7 @@
 #include "app/memory.h"
 #include "app/output.h"
 #include "frame/frame.h"
+#include "quality/darkness.h"
 #include "quality/pictures.h"
 #include "quality/results.h"
 
@@ -91,8 +92,12 @@ void render(const Options& options) {
   quality::write_frame(output, images, metadata);
   preview_is_written.get();
   if (!options.quiet) {
+    const bool black = quality::is_black(images.radiance);
+    if (black)
+      say("airlight: warning: the image is black: " +
+          quality::why_black(subject.scene.geometry, subject.view));
     say(fmt::format("{} and {} written, exposure {:.4g}{}", output.string(), preview.string(), exposure,
-                    subject.exposure ? "" : " (automatic: the 95th percentile maps to 0.8)"));
+                    subject.exposure || black ? "" : " (automatic: the 95th percentile maps to 0.8)"));
   }
 }
 

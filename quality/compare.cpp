@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "quality/darkness.h"
 #include "quality/judge.h"
 #include "quality/measure.h"
 #include "quality/pictures.h"
@@ -51,8 +52,9 @@ Exposure write_truth(const CompareRequest& request, Measurer& measurer, const Tr
   frame::FrameImages images = measurer.render(volume, surface);
   images.distance = truth.distance;
   images.visibility = truth.visibility;
-  const Exposure exposure = request.exposure ? Exposure{*request.exposure, false}
-                                             : Exposure{automatic_exposure(images.radiance), true};
+  const Exposure exposure =
+      request.exposure ? Exposure{*request.exposure, false, is_black(images.radiance)}
+                       : Exposure{automatic_exposure(images.radiance), true, is_black(images.radiance)};
   auto metadata =
       metadata_of(request, volume.spec, surface.spec, command_of(request, "reference", volume, surface));
   metadata["airlight.bound"] = fmt::format("{}", truth.figures.bound);
@@ -115,6 +117,9 @@ Comparison compare(gpu::Context& context, const CompareRequest& request) {
   const Truth truth = trace_truth(measurer.reference(), request.view);
   comparison.truth = truth.figures;
   comparison.exposure = write_truth(request, measurer, truth);
+  if (comparison.exposure.is_of_black)
+    comparison.report.warnings.push_back("the reference is black: " +
+                                         why_black(request.scene.geometry, request.view));
 
   // Every pair: measure, judge, write.
   for (const VolumeChoice& volume : request.volumes) {

@@ -125,11 +125,11 @@ Measurer::Measurement Measurer::measure(const VolumeChoice& volume, const Surfac
 
   Measurement measurement;
   Cost& cost = measurement.cost;
-  for (const auto& stage : staged[0].stages_ms) {
-    std::vector<double> stage_times;
-    for (const TimedFrame& timed : staged) stage_times.push_back(timed.stages_ms.at(stage.first));
-    cost.stages_ms[stage.first] = median(stage_times);
-  }
+  // What is made once for a scene is a stage of one frame alone.
+  std::map<std::string, std::vector<double>> stage_times;
+  for (const TimedFrame& timed : staged)
+    for (const auto& [stage, ms] : timed.stages_ms) stage_times[stage].push_back(ms);
+  for (const auto& [stage, times_of_stage] : stage_times) cost.stages_ms[stage] = median(times_of_stage);
   cost.frame_ms = median(times);
   cost.frames = static_cast<int>(times.size());
   cost.rays = staged[0].work.airlight_rays;

@@ -201,7 +201,8 @@ std::string report_html(const Comparison& comparison) {
       escape(comparison.device.renderer), escape(comparison.device.version), comparison.cores, version(),
       truth.shadows_per_pixel, truth.lit_runs_per_pixel, truth.ms, 100.0 * truth.bound, truth.mean_airlight,
       comparison.exposure.value,
-      comparison.exposure.is_automatic
+      comparison.exposure.is_of_black ? ", whose reference is black"
+      : comparison.exposure.is_automatic
           ? ", chosen so that the 95th percentile of the reference maps to 0.8 of white, linear"
           : "");
   for (const std::string& warning : comparison.report.warnings) {

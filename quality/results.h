@@ -39,6 +39,7 @@ struct Run {
 struct Exposure {
   float value = 1.0f;
   bool is_automatic = false;  ///< chosen by `automatic_exposure`
+  bool is_of_black = false;   ///< whether the reference is black, so that any will do
 };
 
 /// What `airlight compare` found.

@@ -931,5 +931,65 @@ TEST_F(Compare, DarkReferenceGivesNoRelativeError) {
   EXPECT_EQ(small(words).exit_code, 0);
 }
 
+/// A closed box about the origin, 2 m wide.
+class Black : public CommandLine {
+ protected:
+  void SetUp() override {
+    CommandLine::SetUp();
+    std::ofstream(file("box.obj"))
+        << "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\n"
+           "v -1 1 1\nf 1 2 3 4\nf 5 6 7 8\nf 1 2 6 5\nf 4 3 7 8\nf 1 4 8 5\nf 2 3 7 6\n";
+  }
+  std::string words_of(const char* eye, const char* light, const Words& more = {}) const {
+    Words words = {"render", "box.obj", "-o", "x.exr", "--target", "0,0.1,0", "--intensity", "5"};
+    words.insert(words.end(), {"--eye", eye, "--light-position", light});
+    words.insert(words.end(), more.begin(), more.end());
+    const Result result = small(words);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.err;
+  }
+};
+
+TEST_F(Black, ImageIsSaidToBeAndWhy) {
+  EXPECT_THAT(words_of("0,0,4", "0.1,0.2,0.3"),
+              HasSubstr("the light is inside a closed part of the scene (12"));
+  EXPECT_THAT(words_of("0,0,0.5", "3,0.2,0.3"),
+              HasSubstr("the eye is inside a closed part of the scene (12"));
+  EXPECT_THAT(words_of("0,0,4", "3,0.2,0.3", {"--sigma-a", "100", "--volume", "reference", "--albedo", "0"}),
+              HasSubstr("lets through e^-"));
+  EXPECT_THAT(words_of("0,0,4", "3,0.2,0.3", {"--volume", "none", "--albedo", "0"}),
+              HasSubstr("black: whatever is seen lies in shadow, or neither reflects nor scatters"));
+  for (const char* light : {"3,0.2,0.3", "0,0.3,4.2"})
+    EXPECT_EQ(words_of("0,0,4", light).find("black"), std::string::npos);
+  EXPECT_EQ(words_of("0,0,0.5", "0.1,0.2,0.3").find("black"), std::string::npos) << "both are inside";
+  EXPECT_EQ(words_of("0,0,4", "0.1,0.2,0.3").find("95th"), std::string::npos);
+}
+
+TEST_F(Black, ReferenceIsSaidToBeInTheResultsToo) {
+  const Result result =
+      small({"compare", "box.obj", "-o", "out", "--volume", "vsv", "--frames", "1", "--eye", "0,0,4",
+             "--target", "0,0,0", "--light-position", "0,0.1,0", "--intensity", "1"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("warning: the reference is black: the light is inside"));
+  EXPECT_THAT(Json::parse(read_text(file("out/results.json")))["scene"]["warnings"].dump(),
+              HasSubstr("the light is inside"));
+}
+
+// Sanitizers map more than any limit allows.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST_F(Driver, MemoryThatDoesNotSufficeIsNamedBeforeItIsWoken) {
+  const std::string program = quality::shell_quote(AIRLIGHT_BINARY);
+  for (const char* limit : {"200000", "500000"}) {
+    const Result result = shell(fmt::format("ulimit -v {}; {} render cornell -o x.exr", limit, program));
+    expect_one_line_error(result, 4);
+    EXPECT_THAT(result.err, HasSubstr("(ulimit -v)"));
+  }
+  const Result large =
+      shell(fmt::format("ulimit -v 1500000; {} render cornell -o x.exr --size 4096x4096", program));
+  expect_one_line_error(large, 4);
+  EXPECT_THAT(large.err, HasSubstr("--size: an image of 4096x4096 pixels takes about"));
+}
+#endif
+
 }  // namespace
 }  // namespace airlight
