@@ -1,5 +1,7 @@
 #include "surface_shadows/shadow_map_lookup.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "frame/frame.h"
@@ -64,6 +66,25 @@ TEST(ShadowMapLookup, ALonePlaneIsLitWhollyAtAnySlope) {
     view.lights[0].position = {1, height, -1};
     const Wrong count = compare(plane, view, 512);
     EXPECT_EQ(count.wrong, 0u) << "of " << count.pixels << " with the light at " << height;
+  }
+}
+
+TEST(ShadowMapLookup, ALonePlaneIsDarkWhereItPartsEyeAndLight) {
+  scene::Geometry plane;
+  tests::add_quad(plane, {-50, 0, -50}, {100, 0, 0}, {0, 0, 100});
+  scene::View view;
+  view.camera.eye = {0, 4, 8};
+  view.camera.target = {0, 0, 0};
+  view.size = {64, 64};
+  for (double depth : {5.0, 0.5, 0.05}) {
+    view.lights[0].position = {1, -depth, -1};
+    frame::Frame frame(tests::gpu_context(), plane, 64);  // coarse: the map alone would let light through
+    ShadowMapLookup lookup;
+    frame::NoAirlight no_airlight;
+    gpu::StageTimer timer(nullptr);
+    frame.render(view, lookup, no_airlight, timer);
+    const std::vector<float> visibility = frame.read().visibility[0];
+    EXPECT_EQ(std::count(visibility.begin(), visibility.end(), 0.0f), 64 * 64) << depth;
   }
 }
 

@@ -355,7 +355,7 @@ TEST(RobustnessInAPipe, ItsWallDarkensNothingBeforeIt) {
   view.lights[0].position = {0.01, 0.01, -3};
   view.medium.sigma_s = glm::vec3(0.1f);
   view.size = {64, 64};
-  const tests::Truth truth = tests::trace(pipe, view, 256);
+  const tests::Truth truth = tests::trace(pipe, view);
   for (const epipolar::Populate populate :
        {epipolar::Populate::shadow_map, epipolar::Populate::conservative}) {
     tests::VsvSettings changed = settings();
