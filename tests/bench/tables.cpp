@@ -2,7 +2,9 @@
 // of the shadow map and the counts of the grid, with the exponent b of a fitted cost ∝ count^b; and populate
 // + scan against what the machine can copy and write, measured in the same run.
 //
-// `airlight_tables [SCENE]`, a built-in scene (toroid). Times are medians of 5 frames [ms], 1024×1024 pixels.
+// `airlight_tables [SCENE [stages]]`, a built-in scene (toroid). Times are medians of 5 frames [ms],
+// 1024×1024 pixels. With `stages`, each stage of the default frame beside the bytes that it cannot do
+// without.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -20,6 +22,7 @@
 #include "media/vsv.h"
 #include "scene/builtin.h"
 #include "scene/error.h"
+#include "surface_shadows/shadow_map_lookup.h"
 
 #include <epoxy/gl.h>
 
@@ -59,15 +62,20 @@ class Bench {
 
   std::size_t triangles() const { return scene_.geometry.triangles.size(); }
 
+  glm::ivec2 size() const { return view_.size; }
+
   /// Medians of the stages of a frame.
   Stages stages(const epipolar::VolumeOptions& volume, int shadow_map) {
+    frame::NoShadow no_shadow;
+    return stages(volume, shadow_map, no_shadow);
+  }
+  Stages stages(const epipolar::VolumeOptions& volume, int shadow_map, frame::SurfaceShadow& surface_shadow) {
     frame::Frame frame(context_, scene_.geometry, shadow_map);
     media::Vsv vsv(context_, {.volume = volume});
-    frame::NoShadow no_shadow;
     std::map<std::string, std::vector<double>> samples;
     for (int i = 0; i < 6; ++i) {
       gpu::StageTimer timer(&context_);
-      frame.render(view_, no_shadow, vsv, timer);
+      frame.render(view_, surface_shadow, vsv, timer);
       if (i == 0) continue;  // warm-up
       for (const auto& [stage, ms] : timer.milliseconds()) samples[stage].push_back(ms);
     }
@@ -155,6 +163,57 @@ double threads_ms(std::size_t bytes, const std::function<void(std::size_t, std::
   });
 }
 
+/// Each stage of the default frame, beside the bytes that it reads and writes at least, each once, and the
+/// time that the driver's copy of as many takes in the same run.
+void print_stages(Bench& bench, gpu::Context& context) {
+  constexpr int k_shadow_map = 1024;
+  constexpr double k_table_rows = 128;  // media/vsv.cpp
+  const epipolar::Resolution n;
+  const double pixels = bench.size().x * bench.size().y, triangles = static_cast<double>(bench.triangles());
+  const double light_rays = static_cast<double>(n.theta) * n.phi, row = n.phi / 8.0;
+  struct Stage {
+    const char* name;
+    double bytes;
+    const char* what;
+    double operations;
+    const char* each;
+  };
+  const double triangle = 3 * 12 + 12;  // positions and indices
+  const Stage stages[] = {
+      {"surfaces", pixels * (4 + 4 + 4 + 16) + triangles * triangle,
+       "number and depth written; number read, surface written", pixels, "pixel"},
+      {"shadow_map", 6.0 * k_shadow_map * k_shadow_map * 4 + triangles * triangle, "six faces written",
+       triangles, "triangle"},
+      {"ranges", pixels * 16, "surfaces read", pixels, "pixel"},
+      {"populate", light_rays * (4 + 4), "a texel read, a number written a light ray", light_rays,
+       "light ray"},
+      {"scan", light_rays * (4 + n.alpha / 8.0), "numbers read, the grid written", light_rays * n.alpha / 32,
+       "word"},
+      {"table", k_table_rows * n.phi * 8, "written", k_table_rows * n.phi, "entry"},
+      {"integrate", pixels * (16 + row + 16), "surface and a row of the grid read, airlight written", pixels,
+       "pixel"},
+      {"surface_query", pixels * (16 + 4 + 4), "surface and a texel read, visibility written", pixels,
+       "pixel"},
+      {"composite", pixels * (4 + 16 + 4 + 16 + 16), "four images read, radiance written", pixels, "pixel"}};
+
+  const std::int64_t copied = 64 << 20;
+  const gpu::Buffer a(copied), b(copied);
+  const double copy_ms = median_ms([&] {
+    glCopyNamedBufferSubData(a.name(), b.name(), 0, 0, copied);
+    context.finish();
+  });
+  const double bytes_per_ms = 2.0 * static_cast<double>(copied) / copy_ms;  // read and written
+  surface_shadows::ShadowMapLookup lookup;
+  const Stages measured = bench.stages({}, k_shadow_map, lookup);
+  fmt::print("\nThe driver copies {:.1f} GB/s, read and written.\n", bytes_per_ms * 1e-6);
+  fmt::print("{:<15}{:>8}{:>8}{:>14}{:>9}  {}\n", "stage", "ms", "MB", "ms at copy", "ns each", "");
+  for (const Stage& stage : stages) {
+    const double ms = measured.at(stage.name);
+    fmt::print("{:<15}{:>8.1f}{:>8.1f}{:>14.1f}{:>9.2f}  {}; {}\n", stage.name, ms, stage.bytes * 1e-6,
+               stage.bytes / bytes_per_ms, ms * 1e6 / stage.operations, stage.each, stage.what);
+  }
+}
+
 void print_bandwidth(Bench& bench, gpu::Context& context) {
   const epipolar::Resolution n;
   const auto bytes = static_cast<std::size_t>(n.alpha) * static_cast<std::size_t>(n.theta) *
@@ -203,6 +262,10 @@ int main(int argc, char** argv) {
     const std::string name = argc > 1 ? argv[1] : "toroid";
     Bench bench(context, name);
     fmt::print("{}, {} triangles; {}\n", name, bench.triangles(), context.device().renderer);
+    if (argc > 2 && argv[2] == std::string("stages")) {
+      print_stages(bench, context);
+      return 0;
+    }
 
     const std::vector<int> sizes = {512, 1024, 2048, 4096};
     print_head("shadow map size", sizes);

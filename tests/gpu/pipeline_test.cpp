@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "frame/screen_pass.h"
 #include "scene/error.h"
 #include "support/gpu_context.h"
 
@@ -16,6 +17,7 @@
 #include "spirv/shaders/all_stages_vert.h"
 #include "spirv/shaders/count_fragments_frag.h"
 #include "spirv/shaders/count_groups_comp.h"
+#include "spirv/shaders/one_frag.h"
 #include "spirv/shaders/paint_bits_frag.h"
 #include "spirv/shaders/paint_frag.h"
 #include "spirv/shaders/rectangle_vert.h"
@@ -169,6 +171,20 @@ class Row {
   Framebuffer target_;
   Handle<delete_vertex_array> vertex_array_;
 };
+
+TEST(ScreenPass, WritesEveryTexelOnce) {
+  for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(17, 9), glm::ivec2(130, 65)}) {
+    const Texture image(Format::rgba32f, size);
+    Framebuffer({image}).clear();
+    const frame::ScreenPass adds(k_one_frag, {}, Blend::add);
+    adds.run({image});
+    adds.run({image});
+    EXPECT_THAT(image.read<glm::vec4>(), testing::Each(glm::vec4(2, 4, 6, 8))) << size.x;
+    frame::ScreenPass(k_one_frag).run({image});
+    EXPECT_THAT(image.read<glm::vec4>(), testing::Each(glm::vec4(1, 2, 3, 4))) << size.x;
+  }
+  gpu_context().check();
+}
 
 TEST(FixedState, DefaultsDrawEverything) {
   const Row row;

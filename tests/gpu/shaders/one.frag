@@ -1,0 +1,4 @@
+#version 450
+layout(location = 0) out vec4 colour;
+
+void main() { colour = vec4(1.0, 2.0, 3.0, 4.0); }
