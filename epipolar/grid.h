@@ -10,10 +10,10 @@
 
 namespace airlight::epipolar {
 
-/// How many cells the grid has along each angle. Memory is alpha · theta · phi / 8 bytes. The defaults are a
-/// quarter of the paper's 512 × 2048 × 512: on the scenes of docs/figures.md that costs less than it saves.
+/// How many cells the grid has along each angle. Memory is alpha · theta · phi / 8 bytes. By default half of
+/// the paper's 512 × 2048 × 512: docs/figures.md has what that saves and costs.
 struct Resolution {
-  int alpha = 256;   ///< view rays a plane: too few show as jagged shadow edges
+  int alpha = 512;   ///< view rays a plane: too few show as jagged shadow edges
   int theta = 1024;  ///< epipolar half-planes: too few show as streaks around the epipole
   int phi = 512;  ///< samples a view ray, a multiple of 128: too few show as noise and missed thin occluders
   bool operator==(const Resolution&) const = default;

@@ -17,18 +17,20 @@ void delete_vertex_array(unsigned name) {
   glDeleteVertexArrays(1, &name);
 }
 
+void require_allocated(std::int64_t bytes) {
+  if (glGetError() != GL_OUT_OF_MEMORY) return;
+  throw scene::Error(scene::ExitCode::driver, "graphics memory",
+                     fmt::format("the driver has no {:.0f} MiB left", static_cast<double>(bytes) / 0x100000),
+                     "ask for less");
+}
+
 Buffer::Buffer(std::int64_t bytes, const void* data) : bytes_(bytes) {
   GLuint name = 0;
   glCreateBuffers(1, &name);
   handle_ = Handle<delete_buffer>(name);
   glNamedBufferStorage(name, std::max<GLsizeiptr>(bytes, 4), bytes > 0 ? data : nullptr,
                        GL_DYNAMIC_STORAGE_BIT);
-  if (glGetError() == GL_OUT_OF_MEMORY) {
-    throw scene::Error(
-        scene::ExitCode::driver, "graphics memory",
-        fmt::format("the driver has no {:.0f} MiB left", static_cast<double>(bytes) / 0x100000),
-        "ask for less");
-  }
+  require_allocated(bytes);
   if (!data) clear();
 }
 

@@ -11,6 +11,9 @@ namespace airlight::gpu {
 void delete_buffer(unsigned name);
 void delete_vertex_array(unsigned name);
 
+/// @throws scene::Error (driver) where OpenGL has just failed to find so many bytes
+void require_allocated(std::int64_t bytes);
+
 /// Immutable storage on the GPU. Never of size 0 for the driver: an empty buffer holds four unused bytes.
 class Buffer {
  public:

@@ -89,6 +89,7 @@ Texture::Texture(Format format, glm::ivec2 size, int layers, int levels)
   } else {
     glTextureStorage3D(name(), levels, internal_format, size.x, size.y, layers);
   }
+  require_allocated(bytes());
   set_filter(name(), GL_NEAREST, GL_NEAREST_MIPMAP_NEAREST);
 }
 
@@ -100,6 +101,7 @@ Texture Texture::volume(Format format, glm::ivec3 size, int levels) {
   texture.is_volume_ = true;
   texture.levels_ = levels;
   glTextureStorage3D(texture.name(), levels, format_info(format).internal_format, size.x, size.y, size.z);
+  require_allocated(texture.bytes());
   set_filter(texture.name(), GL_NEAREST, GL_NEAREST_MIPMAP_NEAREST);
   return texture;
 }

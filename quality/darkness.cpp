@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "quality/truth.h"
 #include "scene/components.h"
 #include "scene/edges.h"
 
@@ -84,7 +85,7 @@ std::string enclosure(const scene::Geometry& geometry, glm::dvec3 light, glm::dv
 
 bool is_black(const std::vector<glm::vec3>& radiance) {
   return std::all_of(radiance.begin(), radiance.end(),
-                     [](const glm::vec3& value) { return value == glm::vec3(0.0f); });
+                     [](const glm::vec3& value) { return largest(value) < k_least; });
 }
 
 std::string why_black(const scene::Geometry& geometry, const scene::View& view) {
@@ -94,10 +95,10 @@ std::string why_black(const scene::Geometry& geometry, const scene::View& view) 
     const glm::vec3 extinction = view.medium.sigma_s + view.medium.sigma_a;
     const double depth = distance * static_cast<double>(std::min({extinction.x, extinction.y, extinction.z}));
     std::string of_light;
-    if (largest(light.intensity) == 0.0) {
-      of_light = "the light's intensity is 0";
-    } else if (depth > 250.0) {
-      // Far less than single precision holds of the brightest light there can be.
+    const double intensity = largest(light.intensity);
+    if (intensity < k_least) {
+      of_light = fmt::format("the light's intensity is {:.3g}", intensity);
+    } else if (intensity * std::exp(-depth) < k_least) {
       of_light = fmt::format(
           "no path from the light to the eye is shorter than {:.3g} m, of which the medium lets "
           "through e^-{:.4g}",

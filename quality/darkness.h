@@ -7,7 +7,7 @@
 
 namespace airlight::quality {
 
-/// Whether every pixel is 0.
+/// Whether no pixel is above k_least (truth.h), where single precision ends.
 bool is_black(const std::vector<glm::vec3>& radiance);
 
 /// Why an image of the view is black, as the rest of a sentence: a light of no intensity, fog that lets

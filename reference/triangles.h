@@ -47,11 +47,19 @@ struct Triangles {
             glm::dvec3(positions[corner.z]) - origin};
   }
 
-  /// One flag a triangle: whether it is seen edge-on from there. Empty where none is.
-  std::vector<bool> edge_on_from(const glm::dvec3& origin) const {
+  /// One flag a triangle: whether it is seen edge-on from there, and may hold the very point. Empty where
+  /// none does.
+  std::vector<bool> holding(const glm::dvec3& point) const {
     std::vector<bool> flags;
     for (std::uint32_t i = 0; i < count(); ++i) {
-      if (!is_edge_on(around(origin, i))) continue;
+      const Corners c = around(point, i);
+      const glm::dvec3 lower = glm::min(glm::min(c[0], c[1]), c[2]),
+                       upper = glm::max(glm::max(c[0], c[1]), c[2]);
+      const double slack = 1e-6 * glm::length(upper - lower);  // what Embree widens a triangle by, and more
+      if (glm::any(glm::greaterThan(lower, glm::dvec3(slack))) ||
+          glm::any(glm::lessThan(upper, glm::dvec3(-slack))))
+        continue;
+      if (!is_edge_on(c)) continue;
       flags.resize(count());
       flags[i] = true;
     }

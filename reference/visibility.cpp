@@ -38,10 +38,10 @@ struct Visibility::Embree {
   EmbreeDevice device;
   RTCScene scene = nullptr;
   const Triangles& triangles;
-  glm::dvec3 light;                    ///< world space [m]
-  glm::dvec3 eye;                      ///< relative to the light [m]
-  std::vector<bool> edge_on_to_light;  ///< one a triangle; empty where none is
-  std::vector<bool> edge_on_to_eye;
+  glm::dvec3 light;                 ///< world space [m]
+  glm::dvec3 eye;                   ///< relative to the light [m]
+  std::vector<bool> holding_light;  ///< one a triangle; empty where none does
+  std::vector<bool> holding_eye;
   bool wide;  ///< packets of 16 are native
 
   Embree(const Triangles& of, const glm::dvec3& light_position, const glm::dvec3& eye_position)
@@ -49,8 +49,8 @@ struct Visibility::Embree {
         triangles(of),
         light(light_position),
         eye(eye_position - light_position),
-        edge_on_to_light(of.edge_on_from(light_position)),
-        edge_on_to_eye(of.edge_on_from(eye_position)),
+        holding_light(of.holding(light_position)),
+        holding_eye(of.holding(eye_position)),
         wide(rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0) {
     device.check();
   }
@@ -65,8 +65,8 @@ struct Visibility::Embree {
 
   struct SurfaceContext;
   static void reject_coplanar(const RTCFilterFunctionNArguments* arguments);
-  static void reject_edge_on_to_light(const RTCFilterFunctionNArguments* arguments);
-  static void reject_edge_on_to_eye(const RTCFilterFunctionNArguments* arguments);
+  static void reject_holding_light(const RTCFilterFunctionNArguments* arguments);
+  static void reject_holding_eye(const RTCFilterFunctionNArguments* arguments);
 
   template <class Packet>
   std::uint32_t lit_packets(const LightRays& rays, int count) const;
@@ -104,12 +104,12 @@ void reject(const RTCFilterFunctionNArguments* arguments, const std::vector<bool
 
 }  // namespace
 
-void Visibility::Embree::reject_edge_on_to_light(const RTCFilterFunctionNArguments* arguments) {
-  reject(arguments, static_cast<const Embree*>(arguments->geometryUserPtr)->edge_on_to_light);
+void Visibility::Embree::reject_holding_light(const RTCFilterFunctionNArguments* arguments) {
+  reject(arguments, static_cast<const Embree*>(arguments->geometryUserPtr)->holding_light);
 }
 
-void Visibility::Embree::reject_edge_on_to_eye(const RTCFilterFunctionNArguments* arguments) {
-  reject(arguments, static_cast<const Embree*>(arguments->geometryUserPtr)->edge_on_to_eye);
+void Visibility::Embree::reject_holding_eye(const RTCFilterFunctionNArguments* arguments) {
+  reject(arguments, static_cast<const Embree*>(arguments->geometryUserPtr)->holding_eye);
 }
 
 void Visibility::Embree::attach_triangles() {
@@ -127,8 +127,8 @@ void Visibility::Embree::attach_triangles() {
   rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.indices.data(), 0,
                              sizeof(glm::uvec3), triangles.count());
   rtcSetGeometryUserData(mesh, this);
-  if (!edge_on_to_light.empty()) rtcSetGeometryOccludedFilterFunction(mesh, reject_edge_on_to_light);
-  if (!edge_on_to_eye.empty()) rtcSetGeometryIntersectFilterFunction(mesh, reject_edge_on_to_eye);
+  if (!holding_light.empty()) rtcSetGeometryOccludedFilterFunction(mesh, reject_holding_light);
+  if (!holding_eye.empty()) rtcSetGeometryIntersectFilterFunction(mesh, reject_holding_eye);
   rtcCommitGeometry(mesh);
 }
 

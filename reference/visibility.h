@@ -21,8 +21,8 @@ struct LightRays {
 /// Which points the light sees: rays cast by Embree through triangles held relative to the light.
 ///
 /// Light rays start at the light, so that all the rays of a view ray share their origin and descend the
-/// hierarchy together. A triangle whose plane holds the light casts no shadow, and one whose plane holds the
-/// eye is not seen (triangles.h). Embree's robust mode lets no ray through the edge between two triangles.
+/// hierarchy together. A triangle that holds the light casts no shadow, and one that holds the eye is not
+/// seen (triangles.h). Embree's robust mode lets no ray through the edge between two triangles.
 class Visibility {
  public:
   /// @param triangles kept by reference

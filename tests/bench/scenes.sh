@@ -58,7 +58,7 @@ case ${1:-} in
   curves)
     grids=vsv
     for n in 64 128 256; do grids+=,vsv:alpha=$n; done
-    for n in 64 128 256 512 1024; do grids+=,vsv:theta=$n; done
+    for n in 64 128 256 512 2048; do grids+=,vsv:theta=$n; done
     for n in 128 256 1024; do grids+=,vsv:phi=$n; done
     compare window --size 512x512 -o "$out/curves_window" --volume "$grids" --frames 1 --quiet
     compare sponza --size 512x512 -o "$out/curves_sponza" --volume "$grids" --frames 1 --quiet
@@ -97,7 +97,7 @@ case ${1:-} in
     fine=vsv:alpha=1024:theta=8192:phi=1024
     for scene in window fence sponza maple; do
       compare "$scene" --size 512x512 --shadow-map 4096 -o "$out/causes_$scene" --frames 1 --quiet \
-        --volume "$fine,vsv:alpha=512:theta=8192:phi=1024,vsv:alpha=1024:theta=2048:phi=1024,vsv:alpha=1024:theta=8192:phi=512,$fine:integral=riemann,$fine:integral=factored"
+        --volume "$fine,vsv:alpha=512:theta=8192:phi=1024,vsv:alpha=1024:theta=1024:phi=1024,vsv:alpha=1024:theta=8192:phi=512,$fine:integral=riemann,$fine:integral=factored"
       compare "$scene" --size 512x512 --shadow-map 2048 -o "$out/causes_shadow_map_$scene" --frames 1 \
         --volume "$fine" --quiet
     done

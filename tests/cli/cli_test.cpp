@@ -955,6 +955,8 @@ TEST_F(Black, ImageIsSaidToBeAndWhy) {
               HasSubstr("the eye is inside a closed part of the scene (12"));
   EXPECT_THAT(words_of("0,0,4", "3,0.2,0.3", {"--sigma-a", "100", "--volume", "reference", "--albedo", "0"}),
               HasSubstr("lets through e^-"));
+  EXPECT_THAT(words_of("0,0,80", "0,0.2,3", {"--sigma-a", "1"}), HasSubstr("lets through e^-"))
+      << "a picture of 1e-35 is black";
   EXPECT_THAT(words_of("0,0,4", "3,0.2,0.3", {"--volume", "none", "--albedo", "0"}),
               HasSubstr("black: whatever is seen lies in shadow, or neither reflects nor scatters"));
   for (const char* light : {"3,0.2,0.3", "0,0.3,4.2"})
