@@ -23,7 +23,9 @@ struct SurfaceImage {
 
 struct AirlightImage {
   std::vector<glm::vec3> radiance;
-  double ms = 0.0;  ///< wall-clock time of tracing and integrating, primary rays included, BVH build left out
+  /// Wall-clock time of tracing and integrating, primary rays included; of `exact` with building its
+  /// hierarchy, of the others without.
+  double ms = 0.0;
   std::uint64_t rays = 0;   ///< occlusion rays traced, where there are any
   double self_error = 0.0;  ///< `sampled`: rrmse between this image and the one of half as many samples
   // `exact`:

@@ -105,7 +105,8 @@ class LitRuns {
   void store(int first, int count) {
     const std::uint32_t lit = visibility_.lit(light_rays_, count, RayMode::packet);
     rays_ += static_cast<std::uint64_t>(count);
-    for (int i = 0; i < count; ++i) lit_[static_cast<std::size_t>(first + i)] = lit >> i & 1u;
+    for (int i = 0; i < count; ++i)
+      lit_[static_cast<std::size_t>(first) + static_cast<std::size_t>(i)] = lit >> i & 1u;
   }
 
   /// Halves up to `LightRays::k_count` changes together, one in each lane. The changes of a view ray lie far
@@ -113,7 +114,9 @@ class LitRuns {
   void bisect(const ViewRay& ray, std::size_t first) {
     const int count = static_cast<int>(std::min<std::size_t>(LightRays::k_count, changes_.size() - first));
     const auto change = [&](int lane) -> Change& { return changes_[first + static_cast<std::size_t>(lane)]; };
-    for (double width = 1.0 / samples_; width > k_resolution; width *= 0.5) {
+    double width = 1.0 / samples_;
+    while (width > k_resolution) {
+      width *= 0.5;
       for (int lane = 0; lane < count; ++lane) {
         half_angles_.set(lane, ray.psi(0.5 * (change(lane).before + change(lane).after)));
       }

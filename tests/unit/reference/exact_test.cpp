@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -18,7 +17,6 @@ namespace airlight::reference {
 namespace {
 
 using airlight::tests::Random;
-using std::numbers::pi;
 
 /// Where the segment from the light at the origin to a point meets a triangle's plane, and on which side of
 /// each edge it passes, by volumes of tetrahedra: no formula is shared with the intervals.
@@ -280,8 +278,7 @@ std::vector<glm::vec3> without_hierarchy(const scene::Geometry& geometry, const 
       const glm::dvec3 direction = glm::normalize(
           camera.forward + ((x + 0.5) / view.size.x * 2.0 - 1.0) * camera.half_width * camera.right +
           (1.0 - (y + 0.5) / view.size.y * 2.0) * camera.half_height * camera.up);
-      const double distance =
-          static_cast<double>(surfaces.distance[static_cast<std::size_t>(y * view.size.x + x)]);
+      const auto distance = static_cast<double>(surfaces.distance[image.size()]);
       const ViewRay ray = make_view_ray(camera.eye - light, direction, camera.right, distance,
                                         0.5 * camera.half_height / view.size.y);
       shadows.trace(ray, occluders);
