@@ -11,6 +11,7 @@
 
 #include "spirv/frame/composite_frag.h"
 #include "spirv/frame/idle_comp.h"
+#include "spirv/frame/idle_frag.h"
 
 namespace airlight::frame {
 namespace {
@@ -206,6 +207,8 @@ FrameImages Frame::take() {
   // Drivers keep what is bound, until something runs without it.
   gpu::unbind_textures();
   gpu::Pipeline::compute(k_idle_comp).dispatch({1, 1, 1});
+  const gpu::Texture texel(gpu::Format::r32f, {1, 1});
+  ScreenPass(k_idle_frag).run({texel});
   // What frees the most goes first.
   images.distance = read_distance(gbuffer_->surfaces());
   gbuffer_.reset();
