@@ -19,71 +19,58 @@ void upload(const std::vector<glm::vec3>& image, const gpu::Texture& texture) {
   texture.write(rgba.data());
 }
 
+/// What the three methods of airlight differ in: each prepares what its rays need, and traces one light's
+/// image.
 struct ExactOptions {
   int refine = 1;
-};
 
-class ExactAirlight : public frame::Airlight, public Traced {
- public:
-  explicit ExactAirlight(const ExactOptions& options) : options_(options) {}
-  void borrow(SharedReference& shared) override {
-    shared_ = &shared;
-    shared.prepare_truth(options_.refine);
+  void prepare(SharedReference& shared) const { shared.prepare_truth(refine); }
+  const reference::AirlightImage& trace(SharedReference& shared, std::size_t light) const {
+    return shared.exact(light, refine);
   }
-  void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override {
-    inputs.timer.time(
-        "integrate", [&] { upload(shared_->exact(inputs.light_index, options_.refine).radiance, radiance); });
-  }
-
- private:
-  ExactOptions options_;
-  SharedReference* shared_ = nullptr;
 };
 
 struct SampledOptions {
   int samples = 512;
-};
 
-class SampledAirlight : public frame::Airlight, public Traced {
- public:
-  explicit SampledAirlight(const SampledOptions& options) : options_(options) {}
-  void borrow(SharedReference& shared) override {
-    shared_ = &shared;
-    shared.prepare();
+  void prepare(SharedReference& shared) const { shared.prepare(); }
+  reference::AirlightImage trace(SharedReference& shared, std::size_t light) const {
+    return shared.sampled(light, samples);
   }
-  void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override {
-    inputs.timer.time("integrate", [&] {
-      upload(shared_->sampled(inputs.light_index, options_.samples).radiance, radiance);
-    });
-  }
-
- private:
-  SampledOptions options_;
-  SharedReference* shared_ = nullptr;
 };
 
 struct MarchOptions {
   int steps = 512;
   reference::RayMode rays = reference::RayMode::packet;
+
+  void prepare(SharedReference& shared) const { shared.prepare(); }
+  reference::AirlightImage trace(SharedReference& shared, std::size_t light) const {
+    return shared.march(light, steps, rays);
+  }
 };
 
-class MarchedAirlight : public frame::Airlight, public Traced {
+template <typename Options>
+class TracedAirlight : public frame::Airlight, public Traced {
  public:
-  explicit MarchedAirlight(const MarchOptions& options) : options_(options) {}
+  explicit TracedAirlight(const Options& options) : options_(options) {}
   void borrow(SharedReference& shared) override {
     shared_ = &shared;
-    shared.prepare();
+    options_.prepare(shared);
   }
   void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override {
-    inputs.timer.time("integrate", [&] {
-      upload(shared_->march(inputs.light_index, options_.steps, options_.rays).radiance, radiance);
-    });
+    inputs.timer.time("integrate",
+                      [&] { upload(options_.trace(*shared_, inputs.light_index).radiance, radiance); });
   }
 
  private:
-  MarchOptions options_;
+  Options options_;
   SharedReference* shared_ = nullptr;
 };
+
+template <typename Options>
+std::unique_ptr<frame::Airlight> make_traced(const gpu::Context&, const Options& options) {
+  return std::make_unique<TracedAirlight<Options>>(options);
+}
 
 class TracedShadow : public frame::SurfaceShadow, public Traced {
  public:
@@ -112,9 +99,7 @@ frame::AirlightMethod reference_method() {
                             .quality = "changes nothing by more than the stated bound",
                             .cost = "time of the quadrature"},
                            frame::Counts{.most = 64}, &ExactOptions::refine)},
-      [](const gpu::Context&, const ExactOptions& options) {
-        return std::make_unique<ExactAirlight>(options);
-      });
+      make_traced<ExactOptions>);
 }
 
 frame::AirlightMethod reference_sampled_method() {
@@ -126,9 +111,7 @@ frame::AirlightMethod reference_sampled_method() {
                             .quality = "shadows and light that lie wholly between two are missed",
                             .cost = "rays"},
                            frame::Counts{.least = 2}, &SampledOptions::samples)},
-      [](const gpu::Context&, const SampledOptions& options) {
-        return std::make_unique<SampledAirlight>(options);
-      });
+      make_traced<SampledOptions>);
 }
 
 frame::AirlightMethod reference_march_method() {
@@ -148,9 +131,7 @@ frame::AirlightMethod reference_march_method() {
                            .cost = "packets are faster where neighbouring rays stay together",
                            .sweep = {"single", "packet"}},
                           {{"single"}, {"packet"}}, &MarchOptions::rays)},
-      [](const gpu::Context&, const MarchOptions& options) {
-        return std::make_unique<MarchedAirlight>(options);
-      });
+      make_traced<MarchOptions>);
 }
 
 frame::SurfaceMethod reference_surface_method() {

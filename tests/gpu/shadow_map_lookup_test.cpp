@@ -20,14 +20,18 @@ struct Wrong {
   std::size_t pixels, wrong;
 };
 
-/// Pixels that see a surface, and those among them that are lit here and dark there.
-Wrong compare(const scene::Geometry& geometry, const scene::View& view, int shadow_map_size) {
+frame::FrameImages look_up(const scene::Geometry& geometry, const scene::View& view, int shadow_map_size) {
   frame::Frame frame(tests::gpu_context(), geometry, shadow_map_size);
   ShadowMapLookup lookup;
   frame::NoAirlight no_airlight;
   gpu::StageTimer timer(nullptr);
   frame.render(view, lookup, no_airlight, timer);
-  const frame::FrameImages images = frame.read();
+  return frame.read();
+}
+
+/// Pixels that see a surface, and those among them that are lit here and dark there.
+Wrong compare(const scene::Geometry& geometry, const scene::View& view, int shadow_map_size) {
+  const frame::FrameImages images = look_up(geometry, view, shadow_map_size);
   const reference::SurfaceImage exact = reference::Reference(geometry, view).surfaces();
   Wrong count{0, 0};
   for (std::size_t i = 0; i < images.distance.size(); ++i) {
@@ -56,34 +60,17 @@ INSTANTIATE_TEST_SUITE_P(Scenes, ShadowMapLookupOf,
                          testing::Values("cornell", "window", "sphere", "half-space"));
 
 TEST(ShadowMapLookup, ALonePlaneIsLitWhollyAtAnySlope) {
-  scene::Geometry plane;
-  tests::add_quad(plane, {-50, 0, -50}, {100, 0, 0}, {0, 0, 100});
-  scene::View view;
-  view.camera.eye = {0, 4, 8};
-  view.camera.target = {0, 0, 0};
-  view.size = {64, 64};
   for (double height : {5.0, 0.5, 0.05}) {
-    view.lights[0].position = {1, height, -1};
-    const Wrong count = compare(plane, view, 512);
+    const Wrong count = compare(tests::level_plane(50), tests::view_of_level_plane({1, height, -1}), 512);
     EXPECT_EQ(count.wrong, 0u) << "of " << count.pixels << " with the light at " << height;
   }
 }
 
 TEST(ShadowMapLookup, ALonePlaneIsDarkWhereItPartsEyeAndLight) {
-  scene::Geometry plane;
-  tests::add_quad(plane, {-50, 0, -50}, {100, 0, 0}, {0, 0, 100});
-  scene::View view;
-  view.camera.eye = {0, 4, 8};
-  view.camera.target = {0, 0, 0};
-  view.size = {64, 64};
   for (double depth : {5.0, 0.5, 0.05}) {
-    view.lights[0].position = {1, -depth, -1};
-    frame::Frame frame(tests::gpu_context(), plane, 64);  // coarse: the map alone would let light through
-    ShadowMapLookup lookup;
-    frame::NoAirlight no_airlight;
-    gpu::StageTimer timer(nullptr);
-    frame.render(view, lookup, no_airlight, timer);
-    const std::vector<float> visibility = frame.read().visibility[0];
+    // Coarse: the map alone would let light through.
+    const std::vector<float> visibility =
+        look_up(tests::level_plane(50), tests::view_of_level_plane({1, -depth, -1}), 64).visibility[0];
     EXPECT_EQ(std::count(visibility.begin(), visibility.end(), 0.0f), 64 * 64) << depth;
   }
 }

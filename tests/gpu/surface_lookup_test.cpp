@@ -142,14 +142,9 @@ TEST_P(SurfaceLookupBy, ABodyIsLitWhereItFacesTheLight) {
 }
 
 TEST_P(SurfaceLookupBy, ALonePlaneIsLitWhollyAtAnySlope) {
-  scene::Geometry plane;
-  tests::add_quad(plane, {-12, 0, -12}, {24, 0, 0}, {0, 0, 24});
-  scene::View view;
-  view.camera.eye = {0, 4, 8};
-  view.camera.target = {0, 0, 0};
-  view.size = {64, 64};
+  const scene::Geometry plane = tests::level_plane(12);
   for (double height : {5.0, 0.5, 0.05}) {
-    view.lights[0].position = {1, height, -1};
+    const scene::View view = tests::view_of_level_plane({1, height, -1});
     for (int shadow_map_size : {128, 2048}) {
       for (Ranges ranges : {Ranges::frame, Ranges::full}) {
         int dark = 0;
@@ -163,14 +158,9 @@ TEST_P(SurfaceLookupBy, ALonePlaneIsLitWhollyAtAnySlope) {
 }
 
 TEST_P(SurfaceLookupBy, AThinSheetIsDarkBehind) {
-  scene::Geometry sheet;
-  tests::add_quad(sheet, {-50, 0, -50}, {100, 0, 0}, {0, 0, 100});
-  scene::View view;
-  view.camera.eye = {0, 4, 8};
-  view.camera.target = {0, 0, 0};
-  view.lights[0].position = {1, -2, -1};
-  view.size = {64, 64};
-  for (const Seen& pixel : look(sheet, view, settings_of(GetParam()))) EXPECT_FALSE(pixel.is_lit);
+  const scene::Geometry sheet = tests::level_plane(50);
+  for (const Seen& pixel : look(sheet, tests::view_of_level_plane({1, -2, -1}), settings_of(GetParam())))
+    EXPECT_FALSE(pixel.is_lit);
 }
 
 INSTANTIATE_TEST_SUITE_P(Populates, SurfaceLookupBy,

@@ -37,6 +37,23 @@ inline void add_quad(scene::Geometry& geometry, glm::vec3 corner, glm::vec3 u, g
   add_triangle(geometry, corner, corner + u + v, corner + v);
 }
 
+/// A square in the plane y = 0 about the origin.
+inline scene::Geometry level_plane(float half_side) {
+  scene::Geometry plane;
+  add_quad(plane, {-half_side, 0, -half_side}, {2 * half_side, 0, 0}, {0, 0, 2 * half_side});
+  return plane;
+}
+
+/// From above, at the origin, by a light.
+inline scene::View view_of_level_plane(glm::dvec3 light) {
+  scene::View view;
+  view.camera.eye = {0, 4, 8};
+  view.camera.target = {0, 0, 0};
+  view.lights[0].position = light;
+  view.size = {64, 64};
+  return view;
+}
+
 /// Adds the faces of a box.
 inline void add_box(scene::Geometry& geometry, glm::vec3 lower, glm::vec3 upper) {
   const glm::vec3 size = upper - lower;
