@@ -138,7 +138,7 @@ ThetaSpacing theta_spacing(const scene::View& view, const scene::CameraFrame& ca
   double least = std::numeric_limits<double>::infinity();
   constexpr int k_steps = 16;
   for (int step = 0; step <= k_steps; ++step) {
-    const double growth = 0.8 * step / k_steps;
+    const double growth = k_most_theta_growth * step / k_steps;
     double sum = 0.0;
     for (std::size_t bin = 0; bin < reach.size(); ++bin) {
       sum += reach[bin] * reach[bin] * reach[bin] /

@@ -42,6 +42,10 @@ enum class Ranges {
   full,       ///< all angles there are
 };
 
+/// Of EpipolarBlock::theta_growth: where planes are sparsest they are 1 / (1 − it) times as far apart as
+/// equal ones.
+inline constexpr double k_most_theta_growth = 0.8;
+
 /// How the range of θ is cut into planes.
 enum class ThetaCells {
   fitted,  ///< denser where their rays reach farther across the image, if the light is in view

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <numbers>
 #include <utility>
 
 #include "scene/error.h"
@@ -19,6 +20,17 @@ Resolution resolved(Resolution given, const Resolution& automatic) {
   for (const auto count : {&Resolution::alpha, &Resolution::theta, &Resolution::phi})
     if (given.*count == 0) given.*count = automatic.*count;
   return given;
+}
+
+/// How far beside the directions from the light to what the camera may see the light rays lie whose bits its
+/// pixels read [rad]: half a cell, at its widest. Bits that no pixel reads need no occluders, but only the
+/// ranges of the frame are there for pixels alone.
+double reach_of_light_rays(const VolumeOptions& options) {
+  using std::numbers::pi;
+  if (options.ranges != Ranges::frame) return pi;
+  const double widest_theta = 2.0 * pi / options.resolution.theta / (1.0 - k_most_theta_growth);
+  const double widest_phi = 2.0 * pi / options.resolution.phi;  // see shaders::PhiCells
+  return 0.5 * (widest_theta + widest_phi);
 }
 
 }  // namespace
@@ -175,7 +187,8 @@ shaders::EpipolarBlock ShadowVolume::find_ranges(const frame::FrameInputs& input
 
 void ShadowVolume::fill_unscanned(const frame::FrameInputs& inputs, bool with_bits) {
   if (populate_screen_space_) populate_screen_space_->run(inputs, grid_);
-  if (populate_shadow_map_) populate_shadow_map_->run(grid_, inputs.shadow_map());
+  if (populate_shadow_map_)
+    populate_shadow_map_->run(grid_, inputs.shadow_map(reach_of_light_rays(options_)));
   if (populate_conservative_) populate_conservative_->run(grid_, inputs.scene, inputs.triangles_at_light());
   if (with_bits && !populate_screen_space_) {
     grid_.bits().clear();

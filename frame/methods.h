@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,12 @@ struct FrameInputs {
   const scene::Geometry& geometry() const { return resources.geometry(); }
 
   // What is made when it is first asked for: see Resources.
-  const ShadowMap& shadow_map() const { return resources.shadow_map(timer); }
+  /// @param reach of the directions that are looked up, how far they lie beside any from the light to what
+  /// the camera may see [rad]; all directions by default. Beyond, the map need not know of occluders.
+  const ShadowMap& shadow_map(double reach = std::numbers::pi) const {
+    return resources.shadow_map(
+        needed_faces(scene::camera_frame(view.camera, view.size), light().position, reach), timer);
+  }
   const std::vector<std::uint32_t>& triangles_at_light() const { return resources.triangles_at_light(); }
   const gpu::Texture* light_texture() const { return resources.light_texture(); }
   const scene::Components& components() const { return resources.components(timer); }

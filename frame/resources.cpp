@@ -20,7 +20,7 @@ void Resources::begin_frame() {
 void Resources::begin_light(const scene::Light& light, glm::dvec3 eye) {
   light_ = &light;
   triangles_at_light_ = scene_.triangles_at(light.position, glm::distance(light.position, eye));
-  shadow_map_is_drawn_ = false;
+  if (shadow_map_) shadow_map_->reset();
   if (light.texture == light_texture_) return;
   light_texture_ = light.texture;
   light_texture_texels_ = {};
@@ -40,11 +40,12 @@ void Resources::begin_light(const scene::Light& light, glm::dvec3 eye) {
   light_texture_texels_.write(texels.data());
 }
 
-const ShadowMap& Resources::shadow_map(gpu::StageTimer& timer) {
+const ShadowMap& Resources::shadow_map(CubeFaces faces, gpu::StageTimer& timer) {
   if (!shadow_map_) shadow_map_.emplace(context_, shadow_map_size_);
-  if (!shadow_map_is_drawn_) {
-    timer.time("shadow_map", [&] { shadow_map_->draw(scene_, light_->position, triangles_at_light_); });
-    shadow_map_is_drawn_ = shadow_map_is_used_ = true;
+  shadow_map_is_used_ = true;
+  if (!shadow_map_->has(faces)) {
+    timer.time("shadow_map",
+               [&] { shadow_map_->draw(scene_, light_->position, triangles_at_light_, faces); });
   }
   return *shadow_map_;
 }

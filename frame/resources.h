@@ -39,8 +39,9 @@ class Resources {
   /// The triangles on which the light lies, which cast no shadow: see SceneBuffers::triangles_at.
   const std::vector<std::uint32_t>& triangles_at_light() const { return triangles_at_light_; }
 
-  /// Stage `shadow_map`. @throws scene::Error (driver) for one over the driver's limit
-  const ShadowMap& shadow_map(gpu::StageTimer& timer);
+  /// With at least `faces` drawn. Stage `shadow_map`.
+  /// @throws scene::Error (driver) for one over the driver's limit
+  const ShadowMap& shadow_map(CubeFaces faces, gpu::StageTimer& timer);
 
   /// rgba32f, by direction (light_texture.glsl); nullptr where the light has none.
   const gpu::Texture* light_texture() const { return light_texture_ ? &light_texture_texels_ : nullptr; }
@@ -63,8 +64,7 @@ class Resources {
   std::optional<ShadowMap> shadow_map_;
   const scene::Light* light_ = nullptr;  ///< whose things are asked for
   std::vector<std::uint32_t> triangles_at_light_;
-  bool shadow_map_is_drawn_ = false;  ///< for that light
-  bool shadow_map_is_used_ = false;   ///< in this frame
+  bool shadow_map_is_used_ = false;  ///< in this frame
 
   std::shared_ptr<const scene::LightTexture> light_texture_;  ///< the one on the GPU
   gpu::Texture light_texture_texels_;

@@ -1,5 +1,10 @@
 #include "frame/shadow_map.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
 #include <fmt/format.h>
 
 #include "frame/reversed_depth.h"
@@ -9,6 +14,68 @@
 #include "spirv/frame/shadow_map_vert.h"
 
 namespace airlight::frame {
+namespace {
+
+/// The axis of a face and those of its u and v: the same as in shaders/frame/shadow_cube.glsl.
+struct FaceAxes {
+  explicit FaceAxes(int face)
+      : forward(unit(face / 2) * (face % 2 == 0 ? 1.0 : -1.0)),
+        u(unit((face / 2 + 1) % 3)),
+        v(unit((face / 2 + 2) % 3)) {}
+  static glm::dvec3 unit(int i) { return glm::dvec3(i == 0, i == 1, i == 2); }
+  glm::dvec3 forward, u, v;
+};
+
+/// A convex cone about the origin: the sums of multiples ≥ 0 of unit directions.
+using Cone = std::vector<glm::dvec3>;
+
+/// The pyramid of directions forward + x·u + y·v with |x|, |y| ≤ 1.
+Cone pyramid(glm::dvec3 forward, glm::dvec3 u, glm::dvec3 v) {
+  Cone corners;
+  for (const double x : {-1.0, 1.0})
+    for (const double y : {-1.0, 1.0}) corners.push_back(glm::normalize(forward + x * u + y * v));
+  return corners;
+}
+
+/// Whether all directions of one cone are more than `reach` [rad] from all of the other, found out by the
+/// planes through two directions of either: those that do not intersect are parted by a side of one of them.
+bool are_apart(const Cone& a, const Cone& b, double reach) {
+  for (const Cone* cone : {&a, &b}) {
+    for (const glm::dvec3& first : *cone) {
+      for (const glm::dvec3& second : *cone) {
+        glm::dvec3 normal = glm::cross(first, second);
+        const double length = glm::length(normal);
+        if (length < 1e-9) continue;
+        normal /= length;
+        double above = 1.0, below = 1.0;  // sines of the least angles from the plane, a's above and b's below
+        for (const glm::dvec3& direction : a) above = std::min(above, glm::dot(normal, direction));
+        for (const glm::dvec3& direction : b) below = std::min(below, -glm::dot(normal, direction));
+        constexpr double k_rounding = 1e-12;
+        if (above < -k_rounding || below < -k_rounding) continue;
+        if (std::asin(above) + std::asin(below) > reach) return true;
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+CubeFaces needed_faces(const scene::CameraFrame& camera, glm::dvec3 light, double reach) {
+  // From the light the point at t along a view ray w is seen along (eye − light) + t·w.
+  Cone seen = pyramid(camera.forward, camera.half_width * camera.right, camera.half_height * camera.up);
+  seen.push_back(glm::normalize(camera.eye - light));
+  // Shaders take that sum in single precision. Where the two cancel, for a ray that passes close to the
+  // light, its direction is off by a rounding over the angle between the ray and the light's direction.
+  constexpr double k_rounding = 0.01;
+  CubeFaces needed;
+  for (int face = 0; face < 6; ++face) {
+    const FaceAxes axes(face);
+    needed.set(static_cast<std::size_t>(face),
+               !are_apart(seen, pyramid(axes.forward, axes.u, axes.v), reach + k_rounding));
+  }
+  return needed;
+}
 
 ShadowMap::ShadowMap(const gpu::Context& context, int size) {
   const int limit = std::min(context.limits().max_texture_size, context.limits().max_viewport);
@@ -25,21 +92,22 @@ ShadowMap::ShadowMap(const gpu::Context& context, int size) {
       gpu::Pipeline::graphics({.vertex = k_shadow_map_vert, .fragment = k_shadow_map_frag}, k_reversed_depth);
 }
 
-void ShadowMap::draw(const SceneBuffers& scene, glm::dvec3 light,
-                     std::span<const std::uint32_t> left_out) const {
-  for (int face = 0; face < 6; ++face) {
-    const gpu::Framebuffer& target = faces_[static_cast<std::size_t>(face)];
-    target.clear();
-    program_.set(0, face);
-    // The same axes as in shaders/frame/shadow_cube.glsl.
-    const int axis = face / 2;
-    const auto unit = [](int i) { return glm::dvec3(i == 0, i == 1, i == 2); };
-    const glm::dvec3 forward = unit(axis) * (face % 2 == 0 ? 1.0 : -1.0);
+void ShadowMap::draw(const SceneBuffers& scene, glm::dvec3 light, std::span<const std::uint32_t> left_out,
+                     CubeFaces faces) {
+  for (std::size_t face = 0; face < 6; ++face) {
+    if (drawn_[face]) continue;
+    const gpu::Framebuffer& target = faces_[face];
+    if (!empty_[face]) target.clear();
+    empty_[face] = !faces[face];
+    drawn_[face] = faces[face];
+    if (!faces[face]) continue;
+    program_.set(0, static_cast<int>(face));
+    const FaceAxes axes(static_cast<int>(face));
     program_.draw(target, [&] {
       scene.draw({.apex = light,
-                  .right = unit((axis + 1) % 3),
-                  .up = unit((axis + 2) % 3),
-                  .forward = forward,
+                  .right = axes.u,
+                  .up = axes.v,
+                  .forward = axes.forward,
                   .half_width = 1.0,
                   .half_height = 1.0},
                  left_out);

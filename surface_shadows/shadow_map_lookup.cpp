@@ -10,7 +10,7 @@ namespace airlight::surface_shadows {
 ShadowMapLookup::ShadowMapLookup() : pass_(k_shadow_map_lookup_frag) {}
 
 void ShadowMapLookup::query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) {
-  const frame::ShadowMap& shadow_map = inputs.shadow_map();
+  const frame::ShadowMap& shadow_map = inputs.shadow_map(0.0);
   inputs.timer.time("surface_query", [&] {
     inputs.surfaces.bind_sampler(shaders::k_surface_unit);
     shadow_map.depth().bind_sampler(shaders::k_shadow_map_unit);

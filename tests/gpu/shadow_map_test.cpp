@@ -6,10 +6,13 @@
 #include <gtest/gtest.h>
 
 #include "frame/blocks.h"
+#include "media/vsv.h"
 #include "reference/visibility.h"
 #include "scene/error.h"
 #include "support/frame_probe.h"
+#include "support/random.h"
 #include "support/scenes.h"
+#include "surface_shadows/shadow_map_lookup.h"
 
 #include <epoxy/gl.h>
 
@@ -76,6 +79,74 @@ TEST(ShadowMap, OfAnEmptySceneHoldsNothing) {
   look_into_frame(scene.geometry, view_of(scene, {8, 8}), 16, [&](const FrameInputs& inputs) {
     for (float texel : read_faces(inputs.shadow_map(), 16)) EXPECT_EQ(texel, 0.0f);
   });
+}
+
+TEST(ShadowMap, HoldsTheFacesAskedForAndNothingElsewhere) {
+  const scene::Scene& scene = builtin("cornell");  // on all sides of a light in it
+  scene::View view = view_of(scene, {16, 16});
+  view.lights[0].position = view.camera.eye + glm::dvec3(0.0, 0.3, 0.3);
+  const int size = 32;
+  std::vector<float> all;
+  Frame frame(tests::gpu_context(), scene.geometry, size);
+  NoShadow no_shadow;
+  gpu::StageTimer timer(nullptr);
+  tests::FrameProbe all_faces(
+      [&](const FrameInputs& inputs) { all = read_faces(inputs.shadow_map(), size); });
+  frame.render(view, no_shadow, all_faces, timer);
+  tests::FrameProbe some_faces([&](const FrameInputs& inputs) {
+    const CubeFaces needed =
+        needed_faces(scene::camera_frame(view.camera, view.size), view.lights[0].position, 0.0);
+    EXPECT_LT(needed.count(), 6u);
+    const std::vector<float> some = read_faces(inputs.shadow_map(0.0), size);
+    for (std::size_t at = 0; at < all.size(); ++at) {
+      const std::size_t face = at / static_cast<std::size_t>(size * size);
+      ASSERT_EQ(some[at], needed[face] ? all[at] : 0.0f) << "face " << face;
+    }
+    EXPECT_NE(some, all) << "what is left out is not empty";
+    EXPECT_EQ(read_faces(inputs.shadow_map(), size), all) << "the rest is drawn when it is asked for";
+  });
+  frame.render(view, no_shadow, some_faces, timer);
+}
+
+/// Draws all faces before its look-up asks for those that it needs.
+class LookUpInAllFaces : public surface_shadows::ShadowMapLookup {
+ public:
+  void query(const FrameInputs& inputs, const gpu::Texture& visibility) override {
+    some_are_enough = !inputs.shadow_map(0.0).has(CubeFaces("111111"));
+    inputs.shadow_map();
+    ShadowMapLookup::query(inputs, visibility);
+  }
+  bool some_are_enough = false;
+};
+
+TEST(ShadowMap, FacesThatAreLeftOutChangeNoPicture) {
+  const scene::Scene& scene = builtin("cornell");
+  const scene::Box box = scene::bounds(scene.geometry);
+  const glm::dvec3 middle(0.5f * (box.lower + box.upper));
+  const double half_side = static_cast<double>(box.upper.x - box.lower.x);
+  Frame frame(tests::gpu_context(), scene.geometry, 64);
+  surface_shadows::ShadowMapLookup lookup;
+  LookUpInAllFaces lookup_in_all_faces;
+  gpu::StageTimer timer(nullptr);
+  for (const epipolar::Resolution& coarse : {epipolar::Resolution{32, 16, 128}, {32, 512, 512}}) {
+    media::Vsv vsv(tests::gpu_context(), {.volume = {.resolution = coarse}});
+    tests::Random random(1);
+    int views_by_some_faces = 0;
+    for (int i = 0; i < 40; ++i) {
+      scene::View view = view_of(scene, {32, 24});
+      view.camera.eye = middle + random.in_box(half_side);
+      view.camera.target = middle + random.in_box(0.5 * half_side);
+      view.lights[0].position = middle + random.in_box(half_side);
+      frame.render(view, lookup, vsv, timer);
+      const FrameImages images = frame.read();
+      frame.render(view, lookup_in_all_faces, vsv, timer);
+      const FrameImages expected = frame.read();
+      EXPECT_EQ(images.visibility, expected.visibility) << i;
+      EXPECT_EQ(images.airlight, expected.airlight) << i;
+      views_by_some_faces += lookup_in_all_faces.some_are_enough;
+    }
+    EXPECT_GT(views_by_some_faces, 20);
+  }
 }
 
 TEST(ShadowMap, OverTheDriversLimitIsAnErrorThatNamesIt) {
