@@ -22,9 +22,9 @@ Resolution resolved(Resolution given, const Resolution& automatic) {
   return given;
 }
 
-/// How far beside the directions from the light to what the camera may see the light rays lie whose bits its
-/// pixels read [rad]: half a cell, at its widest. Bits that no pixel reads need no occluders, but only the
-/// ranges of the frame are there for pixels alone.
+/// How far a light ray whose bits a pixel reads may lie beside the directions from the light to what the
+/// camera sees [rad]: half a cell, where cells are widest. Ranges beyond the frame's are asked for to see
+/// them whole.
 double reach_of_light_rays(const VolumeOptions& options) {
   using std::numbers::pi;
   if (options.ranges != Ranges::frame) return pi;

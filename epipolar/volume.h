@@ -57,7 +57,8 @@ struct VolumeOptions {
 std::vector<frame::Option> volume_options();
 
 /// The voxelized shadow volume of a frame: ranges → populate → scan. Afterwards the bit of voxel (α_i, θ_j,
-/// φ_k) says whether it is in shadow. Based on: Wyman, "Voxelized Shadow Volumes", HPG 2011, section 2.2.
+/// φ_k) says whether it is in shadow; with Ranges::frame, only where a pixel may read it. Based on: Wyman,
+/// "Voxelized Shadow Volumes", HPG 2011, section 2.2.
 class ShadowVolume {
  public:
   /// @throws scene::Error (usage) where options contradict each other or are still automatic; (driver) as

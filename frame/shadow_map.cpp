@@ -1,9 +1,7 @@
 #include "frame/shadow_map.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -37,8 +35,8 @@ Cone pyramid(glm::dvec3 forward, glm::dvec3 u, glm::dvec3 v) {
   return corners;
 }
 
-/// Whether all directions of one cone are more than `reach` [rad] from all of the other, found out by the
-/// planes through two directions of either: those that do not intersect are parted by a side of one of them.
+/// Whether all directions of one cone are more than `reach` [rad] from all of the other: never wrongly "yes".
+/// Convex cones that do not meet are parted by a side of one of them, a plane through two of its directions.
 bool are_apart(const Cone& a, const Cone& b, double reach) {
   for (const Cone* cone : {&a, &b}) {
     for (const glm::dvec3& first : *cone) {
@@ -65,8 +63,8 @@ CubeFaces needed_faces(const scene::CameraFrame& camera, glm::dvec3 light, doubl
   // From the light the point at t along a view ray w is seen along (eye − light) + t·w.
   Cone seen = pyramid(camera.forward, camera.half_width * camera.right, camera.half_height * camera.up);
   seen.push_back(glm::normalize(camera.eye - light));
-  // Shaders take that sum in single precision. Where the two cancel, for a ray that passes close to the
-  // light, its direction is off by a rounding over the angle between the ray and the light's direction.
+  // Shaders add the two in single precision. Where they cancel, close to the light, the direction is off by
+  // a rounding over the angle between view ray and light, which out of view is at least half a pixel.
   constexpr double k_rounding = 0.01;
   CubeFaces needed;
   for (int face = 0; face < 6; ++face) {
