@@ -64,6 +64,10 @@ Box bounds(const Geometry& geometry) {
   return box;
 }
 
+glm::dvec3 direction_to(const Light& light, glm::dvec3 from) {
+  return is_sun(light) ? light.towards : glm::normalize(light.position - from);
+}
+
 std::span<const std::string_view> phase_names() {
   static constexpr auto k_names =
       std::to_array<std::string_view>({"isotropic", "rayleigh", "henyey-greenstein", "hoffman-preetham"});

@@ -74,20 +74,42 @@ class LightTexture;
 /// What a light is; it says which of a light's fields mean something.
 enum class LightKind {
   point,  ///< radiates from one point: alike in all directions, or as its texture says
+  sun,    ///< a point at infinity: its rays are parallel, it has no disc
 };
 
 struct Light {
   std::string name;
   LightKind kind = LightKind::point;
+  // Of a point:
   glm::dvec3 position{0.0};   ///< world space [m]
   glm::vec3 intensity{1.0f};  ///< radiant intensity, RGB [W/sr]; candela of a glTF file are read one to one
-  /// Multiplies `intensity` by direction; nullptr for none.
+  // Of a sun:
+  glm::dvec3 towards{0.0, 1.0, 0.0};  ///< from anywhere to the sun, world axes; unit length
+  /// On a surface that faces the sun, RGB [W/m²]: where its light enters the medium's layer, or anywhere in a
+  /// medium without a top, in which its path has no length. Lux of a glTF file are read one to one.
+  glm::vec3 irradiance{1.0f};
+  /// Multiplies a point's `intensity` by direction; nullptr for none.
   std::shared_ptr<const LightTexture> texture = nullptr;
 };
 
 inline Light point_light(std::string name, glm::dvec3 position, glm::vec3 intensity) {
   return {.name = std::move(name), .position = position, .intensity = intensity};
 }
+
+inline Light sun(std::string name, glm::dvec3 towards, glm::vec3 irradiance) {
+  return {.name = std::move(name),
+          .kind = LightKind::sun,
+          .towards = glm::normalize(towards),
+          .irradiance = irradiance};
+}
+
+inline bool is_sun(const Light& light) {
+  return light.kind == LightKind::sun;
+}
+
+/// Unit direction from a point to the light.
+/// @param from world space [m], not where the light is
+glm::dvec3 direction_to(const Light& light, glm::dvec3 from);
 
 /// `hoffman_preetham` mixes Rayleigh's function, of the air's molecules, with Henyey-Greenstein's, of haze.
 enum class PhaseFunction : std::uint32_t {
@@ -106,7 +128,7 @@ std::string phase_name(PhaseFunction phase);
 /// Whether it has a mean cosine g to set.
 bool has_g(PhaseFunction phase);
 
-/// A homogeneous participating medium that fills space.
+/// A homogeneous participating medium that fills space, or a layer of it.
 struct Medium {
   glm::vec3 sigma_s{0.1f};  ///< scattering coefficient, RGB [1/m]
   glm::vec3 sigma_a{0.0f};  ///< absorption coefficient, RGB [1/m]
@@ -115,6 +137,8 @@ struct Medium {
   /// Of Hoffman-Preetham: the fraction of the scattered light that molecules scatter, in [0, 1]. Half, where
   /// nothing is known: on a clear day that is about right for green light, in fog it is next to none.
   float rayleigh_weight = 0.5f;
+  /// Height y of the layer's top, world space [m]: the medium fills what lies below. Without, all of space.
+  std::optional<double> top = {};
 };
 
 /// What an importer dropped or could not represent: shown to the user, kept with the results.
