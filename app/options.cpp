@@ -121,7 +121,8 @@ Subject make_subject(const Options& options) {
   Subject subject{load_scene(options), {}, {}};
   choose_all(choices, subject.scene);
   if (subject.scene.lights.empty())
-    throw usage(options.scene, "it has no light", "give one with --light-position x,y,z --intensity r,g,b");
+    throw usage(options.scene, "it has no light",
+                "give one with --light-position x,y,z --intensity r,g,b or --sun x,y,z --irradiance r,g,b");
   subject.view = {subject.scene.cameras[0], {subject.scene.lights[0]}, subject.scene.medium};
   choose(choices, subject.view);
   subject.exposure = subject.scene.exposure;

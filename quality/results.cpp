@@ -28,6 +28,7 @@ Json single(float value) {
 
 struct JsonOfField {
   Json operator()(double v) const { return v; }
+  Json operator()(glm::dvec2 v) const { return {v.x, v.y}; }
   Json operator()(glm::dvec3 v) const { return {v.x, v.y, v.z}; }
   Json operator()(const std::string& v) const { return v; }
   Json operator()(glm::ivec2 v) const { return {v.x, v.y}; }
@@ -36,9 +37,10 @@ struct JsonOfField {
 
 Json view_json(const scene::View& view) {
   Json json = {{"camera", {{"name", view.camera.name}}}, {"light", {{"name", view.lights[0].name}}}};
-  for_each_value_of_view(view, [&](const scene::FieldInfo& field, const scene::FieldValue& value) {
-    (field.group.empty() ? json : json[field.group])[field.key()] = std::visit(JsonOfField(), value);
-  });
+  for_each_value_of_view(
+      view, [&](std::string_view part, const scene::FieldInfo& field, const scene::FieldValue& value) {
+        (part.empty() ? json : json[part])[field.key()] = std::visit(JsonOfField(), value);
+      });
   return json;
 }
 
@@ -123,9 +125,10 @@ std::string version() {
 
 std::map<std::string, std::string> view_options(const scene::View& view) {
   std::map<std::string, std::string> options;
-  for_each_value_of_view(view, [&](const scene::FieldInfo& field, const scene::FieldValue& value) {
-    options.emplace(field.name, scene::text_of(value));
-  });
+  for_each_value_of_view(
+      view, [&](std::string_view, const scene::FieldInfo& field, const scene::FieldValue& value) {
+        options.emplace(field.name, scene::text_of(value));
+      });
   return options;
 }
 

@@ -86,12 +86,13 @@ std::string TruthCache::key(std::size_t light_index, const std::string& what) co
       "{} of version {}\n"
       "geometry {}\n"
       "camera {} {} {} {:a} {}x{}\n"
-      "light {} {} {}\n"
-      "medium {} {} {} {:a} {:a}\n",
+      "light {} {} {} {} {}\n"
+      "medium {} {} {} {:a} {:a} {}\n",
       what, reference::k_truth_version, geometry_hash_, exact(camera.eye), exact(camera.target),
       exact(camera.up), camera.vertical_fov_degrees, view_.size.x, view_.size.y, static_cast<int>(light.kind),
-      exact(light.position), exact(light.intensity), exact(medium.sigma_s), exact(medium.sigma_a),
-      static_cast<int>(medium.phase), medium.g, medium.rayleigh_weight);
+      exact(light.position), exact(light.intensity), exact(light.towards), exact(light.irradiance),
+      exact(medium.sigma_s), exact(medium.sigma_a), static_cast<int>(medium.phase), medium.g,
+      medium.rayleigh_weight, medium.top ? fmt::format("{:a}", *medium.top) : "everywhere");
   if (light.texture) {
     Hash hash;
     hash.add(light.texture->texels());

@@ -67,6 +67,7 @@ Path circle(glm::dvec2 centre, double radius, int steps);
 void bar(Modeller& model, const Plane& plane, const Path& path, bool closed, double width, double depth);
 
 Scene make_window();
+Scene make_nave();
 Scene make_fence();
 
 /// @param triangles at least 2000

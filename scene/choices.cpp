@@ -1,6 +1,7 @@
 #include "scene/choices.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <vector>
 
 #include <fmt/format.h>
@@ -47,26 +48,45 @@ void choose_camera(const Choices& choices, std::vector<Camera>& cameras, const G
   choose(choices, cameras[0]);
 }
 
+/// The first of the fields that was given; nullptr for none.
+const FieldInfo* first_given(const Choices& choices, std::initializer_list<const FieldInfo*> infos) {
+  const auto* const found =
+      std::find_if(infos.begin(), infos.end(), [&](const FieldInfo* info) { return choices.get(*info); });
+  return found == infos.end() ? nullptr : *found;
+}
+
 void choose_light(const Choices& choices, std::vector<Light>& lights) {
-  const FieldInfo &position = field<Light>("light-position"), &intensity = field<Light>("intensity");
+  const FieldInfo &position = field<Light>("light-position"), &intensity = field<Light>("intensity"),
+                  &texture = field<Light>("light-texture"), &sun = field<Light>("sun"),
+                  &irradiance = field<Light>("irradiance");
+  const auto contradiction = [&](const FieldInfo& one, const FieldInfo& other) {
+    return choices.error(one, choices.spell(other) + " contradicts it", "give one or the other");
+  };
+  const FieldInfo* of_lamp = first_given(choices, {&position, &intensity, &texture});
+  const FieldInfo* of_sun = first_given(choices, {&sun, &sun_angles(), &irradiance});
+  if (of_lamp && of_sun) throw contradiction(*of_lamp, *of_sun);
+  if (choices.get(sun) && choices.get(sun_angles())) throw contradiction(sun, sun_angles());
+  const FieldInfo* place = first_given(choices, {&position, &sun, &sun_angles()});
+
   if (choices.get(light_choice())) {
-    if (choices.get(position))
-      throw choices.error(light_choice(), choices.spell(position) + " contradicts it",
-                          "give one or the other");
+    if (place) throw contradiction(light_choice(), *place);
     put_first(choices, light_choice(), lights);
-  } else if (choices.get(position)) {
-    if (!choices.get(intensity))
-      throw choices.error(position, "it needs " + choices.spell(intensity), "give both");
-    lights.insert(lights.begin(), Light{.name = "of " + choices.spell(position)});
+  } else if (place) {
+    const FieldInfo& power = of_sun ? irradiance : intensity;
+    if (!choices.get(power)) throw choices.error(*place, "it needs " + choices.spell(power), "give both");
+    lights.insert(lights.begin(), Light{.name = "of " + choices.spell(*place),
+                                        .kind = of_sun ? LightKind::sun : LightKind::point});
   } else if (lights.empty()) {
-    for (const FieldInfo& field : fields<Light>())
-      if (choices.get(field))
-        throw choices.error(
-            field, "the scene has no light",
-            fmt::format("place one by {} and {}", choices.spell(position), choices.spell(intensity)));
+    if (const FieldInfo* given = of_lamp ? of_lamp : of_sun)
+      throw choices.error(
+          *given, "the scene has no light",
+          fmt::format("place one by {} and {}, or by {} and {}", choices.spell(position),
+                      choices.spell(intensity), choices.spell(sun), choices.spell(irradiance)));
     return;
   }
   choose(choices, lights[0]);
+  if (const FieldValue* angles = choices.get(sun_angles()))
+    lights[0].towards = direction_of_angles(std::get<glm::dvec2>(*angles));
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/import_internal.h"
+#include "scene/view_fields.h"
 
 // Reads glTF 2.0. tinygltf leaves out, without a word, properties of a wrong type, and trusts offsets and
 // counts: the JSON is checked before it sees it, and every accessor before it is read through.
@@ -358,7 +359,7 @@ class Importer {
 
       const std::vector<double>& emission = material.emissiveFactor;
       count(std::ranges::any_of(emission, [](double e) { return e != 0.0; }), "light of emissive materials",
-            "only point lights are rendered");
+            "only point lights and suns are rendered");
       count(material.alphaMode == "MASK", "alpha masks of materials", "surfaces are opaque");
       count(material.alphaMode == "BLEND", "transparency of materials", "surfaces are opaque");
       count(material.extensions.contains("KHR_materials_transmission"), "transmission of materials",
@@ -477,25 +478,33 @@ class Importer {
     if (!reference.Has("light")) throw error(where, fmt::format("{} names no light", k_lights));
     const int index = reference.Get("light").GetNumberAsInt();
     const tinygltf::Light& source = at(model_.lights, index, "light", where);
-    if (source.type != "point") {
-      count(1,
-            source.type == "spot" || source.type == "directional" ? source.type + " lights"
-                                                                  : "lights of unknown type",
-            "only point lights are rendered");
+    if (source.type != "point" && source.type != "directional") {
+      count(1, source.type == "spot" ? "spot lights" : "lights of unknown type",
+            "only point lights and suns are rendered");
       return;
     }
-    count(source.range > 0.0, "ranges of lights", "light reaches without limit");
 
-    const glm::dvec3 color = source.color.empty() ? glm::dvec3(1.0) : dvec3_of(source.color);
     Light light;
     light.name = name_of(source.name, node.name, "light", scene_.lights.size());
-    light.position = glm::dvec3(world_from_node[3]);
-    light.intensity = glm::vec3(color * source.intensity);
-    for (int i = 0; i < 3; ++i) {
-      if (!std::isfinite(light.position[i])) throw error(where, "the light's position is not finite");
-      if (!(std::isfinite(light.intensity[i]) && light.intensity[i] >= 0.0f))
+    const glm::dvec3 color = source.color.empty() ? glm::dvec3(1.0) : dvec3_of(source.color);
+    const glm::vec3 power(color * source.intensity);
+    for (int i = 0; i < 3; ++i)
+      if (!(std::isfinite(power[i]) && power[i] >= 0.0f))
         throw error(where, fmt::format("the light's intensity {:g} is not finite and non-negative",
                                        color[i] * source.intensity));
+    if (source.type == "point") {
+      count(source.range > 0.0, "ranges of lights", "light reaches without limit");
+      light.position = glm::dvec3(world_from_node[3]);
+      for (int i = 0; i < 3; ++i)
+        if (!std::isfinite(light.position[i])) throw error(where, "the light's position is not finite");
+      light.intensity = power;
+    } else {
+      light.kind = LightKind::sun;
+      // It shines along the node's −Z.
+      const glm::dvec3 towards(world_from_node[2]);
+      if (const auto wrong = field<Light>("sun").set(light, towards))
+        throw error(where, "the light's direction: " + wrong->problem);
+      light.irradiance = power;
     }
     scene_.lights.push_back(light);
   }

@@ -180,7 +180,7 @@ Scene import_obj(const std::filesystem::path& file) {
   }
   raw.materials.emplace_back();
   count_warning(report, textured, "materials' textures ignored: surfaces have one colour");
-  count_warning(report, emissive, "materials' emission ignored: only point lights are rendered");
+  count_warning(report, emissive, "materials' emission ignored: only point lights and suns are rendered");
   count_warning(report, transparent, "transparent materials rendered opaque");
 
   // Positions and triangles.

@@ -22,9 +22,10 @@ bool read(std::string_view text, T& value) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-bool read_three(const std::vector<std::string_view>& parts, glm::dvec3& value) {
-  bool good = parts.size() == 3;
-  for (int i = 0; good && i < 3; ++i)
+template <typename Vector>
+bool read_each(const std::vector<std::string_view>& parts, Vector& value) {
+  bool good = parts.size() == static_cast<std::size_t>(Vector::length());
+  for (int i = 0; good && i < Vector::length(); ++i)
     good = read(parts[static_cast<std::size_t>(i)], value[i]) && std::isfinite(value[i]);
   return good;
 }
@@ -53,9 +54,15 @@ double parse_number(const std::string& where, std::string_view text) {
   return value;
 }
 
+glm::dvec2 parse_pair(const std::string& where, std::string_view text) {
+  glm::dvec2 value(0.0);
+  if (!read_each(split(text, ','), value)) refuse(where, text, "two finite numbers a,b");
+  return value;
+}
+
 glm::dvec3 parse_vector(const std::string& where, std::string_view text) {
   glm::dvec3 value(0.0);
-  if (!read_three(split(text, ','), value)) refuse(where, text, "three finite numbers x,y,z");
+  if (!read_each(split(text, ','), value)) refuse(where, text, "three finite numbers x,y,z");
   return value;
 }
 
@@ -63,7 +70,7 @@ glm::dvec3 parse_colour(const std::string& where, std::string_view text) {
   glm::dvec3 value(0.0);
   std::vector<std::string_view> parts = split(text, ',');
   if (parts.size() == 1) parts.assign(3, text);
-  if (!read_three(parts, value)) refuse(where, text, "one finite number, or three r,g,b");
+  if (!read_each(parts, value)) refuse(where, text, "one finite number, or three r,g,b");
   return value;
 }
 

@@ -16,6 +16,9 @@ int parse_count(const std::string& where, std::string_view text);
 
 double parse_number(const std::string& where, std::string_view text);
 
+/// Two numbers separated by a comma.
+glm::dvec2 parse_pair(const std::string& where, std::string_view text);
+
 /// Three numbers separated by commas.
 glm::dvec3 parse_vector(const std::string& where, std::string_view text);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <string>
 
@@ -34,14 +35,33 @@ void check_fields(ExitCode code, const std::string& where, const Thing& thing) {
   }
 }
 
-/// The largest brightness of fog, σ_s I/D [W/(m² sr)]. What this leaves to the largest number in single
-/// precision is for the peaks towards the light, 1/sin α, and of the phase function.
+/// A sun that stands lower reaches a layer along paths so long that single precision cannot tell them apart.
+constexpr double k_lowest_sun = 1e-6;  // sine of its elevation
+
+/// The largest brightness of fog, σ_s I/D [W/(m² sr)], or under a sun σ_s E [W/m³]. What this leaves to the
+/// largest number in single precision is for the peaks towards the light, 1/sin α, and of the phase function.
 constexpr double k_brightest = 1e25;
+
+void validate_sun(const std::string& where, const Light& sun, const Medium& medium) {
+  assert(std::abs(glm::length(sun.towards) - 1.0) < 1e-9);
+  if (const auto wrong = sun.texture ? field<Light>("light-texture").lack(sun) : std::nullopt)
+    throw Error(ExitCode::bad_file, where, wrong->problem, wrong->remedy);
+  if (medium.top && sun.towards.y < k_lowest_sun)
+    throw Error(ExitCode::usage, where,
+                "a sun that is at or below the horizon never reaches a medium with a top",
+                "raise the sun, or leave out --fog-top");
+  if (largest(sun.irradiance) * largest(medium.sigma_s) > k_brightest)
+    throw Error(ExitCode::usage, where + ", irradiance",
+                fmt::format("{:g} W/m2 in this medium could overflow single precision, which images are in",
+                            largest(sun.irradiance)),
+                "lower --irradiance");
+}
 
 void validate(const Light& light, const View& view) {
   const glm::dvec3 eye = view.camera.eye;
   const std::string where = light.name.empty() ? "light" : fmt::format("light '{}'", light.name);
   check_fields(ExitCode::bad_file, where, light);
+  if (is_sun(light)) return validate_sun(where, light, view.medium);
   if (glm::distance(light.position, eye) < k_shortest_distance)
     throw Error(ExitCode::bad_file, where, "it is at the eye, where the airlight is infinite",
                 "move the light or the camera");

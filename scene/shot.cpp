@@ -61,11 +61,14 @@ class Table {
       case FieldKind::number:
         return number_of(key, *node, "it must be a number");
       case FieldKind::vector:
-        return vector_of(key, *node, "it must be three numbers, as in [0, 1, 0]");
+      case FieldKind::direction:
+        return vector_of<glm::dvec3>(key, *node, "it must be three numbers, as in [0, 1, 0]");
+      case FieldKind::angles:
+        return vector_of<glm::dvec2>(key, *node, "it must be two numbers, as in [30, 45]");
       case FieldKind::colour: {
         constexpr const char* k_wanted = "it must be a number or three, as in [1, 0.8, 0.6]";
         return node->is_number() ? glm::dvec3(number_of(key, *node, k_wanted))
-                                 : vector_of(key, *node, k_wanted);
+                                 : vector_of<glm::dvec3>(key, *node, k_wanted);
       }
       case FieldKind::word:
         return *text(key);
@@ -108,11 +111,13 @@ class Table {
     return *value;
   }
 
-  glm::dvec3 vector_of(std::string_view key, const toml::node& node, const char* wanted) const {
+  template <typename Vector>
+  Vector vector_of(std::string_view key, const toml::node& node, const char* wanted) const {
     const toml::array* array = node.as_array();
-    if (!array || array->size() != 3) throw error(key, wanted);
-    glm::dvec3 value;
-    for (int i = 0; i < 3; ++i) value[i] = number_of(key, (*array)[static_cast<std::size_t>(i)], wanted);
+    if (!array || array->size() != static_cast<std::size_t>(Vector::length())) throw error(key, wanted);
+    Vector value;
+    for (int i = 0; i < Vector::length(); ++i)
+      value[i] = number_of(key, (*array)[static_cast<std::size_t>(i)], wanted);
     return value;
   }
 
@@ -143,6 +148,8 @@ class ShotChoices : public Choices {
       if (!tables_.contains(field->group)) tables_.emplace(field->group, root().table(field->group));
       if (auto value = table_of(*field).value(*field, reader)) add(*field, std::move(*value));
     }
+    if (root().has("light") && root().has("sun"))
+      throw root().error("sun", "[light] contradicts it", "give one or the other");
   }
 
   Table& root() { return tables_.at(""); }

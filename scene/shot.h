@@ -24,12 +24,17 @@ namespace airlight::scene {
 ///     position = [0, 1.85, 0]
 ///     intensity = [1, 0.86, 0.68]
 ///     texture = "lantern.exr"    # what it radiates by direction, relative to the shot
+///     [sun]                      # where [light] would stand
+///     towards = [0.8, 0.5, 0.3]  # its direction, of any length; or:
+///     angles = [70, 30]          # azimuth from +Z towards +X, elevation above the horizon [degrees]
+///     irradiance = [3, 2.4, 1.6] # on a surface that faces it [W/m²]
 ///     [medium]
 ///     sigma_s = 0.25             # [1/m]
 ///     sigma_a = 0.0
 ///     phase = "henyey-greenstein"
 ///     g = 0.5
 ///     rayleigh_weight = 0.5      # with phase = "hoffman-preetham"
+///     fog_top = 16               # the medium fills what lies below [m]
 ///
 /// Everything but `scene` may be left out. Keys mean what the command line's options of these names mean; a
 /// camera or a light without a name of its own is named by its number from 0, as in name = "0".

@@ -20,6 +20,9 @@ constexpr FieldRange k_any;
 // Single precision ends at 3e38; surfaces a tenth of a millimetre from the light are to fit as well.
 constexpr FieldRange k_intensity = {
     .lower = 0, .upper = 1e30f, .why = "more could overflow single precision, which images are in"};
+// A sun's light is spread over no distance: this leaves room for the phase function's peak.
+constexpr FieldRange k_irradiance = {
+    .lower = 0, .upper = 1e25f, .why = "more could overflow single precision, which images are in"};
 constexpr FieldRange k_per_metre = {
     .lower = 0, .upper = 1e6, .why = "a mean free path below a micrometre is no fog"};
 constexpr FieldRange k_positive = {.lower = 0, .is_open = true};
@@ -27,6 +30,7 @@ constexpr FieldRange k_fraction = {.lower = 0, .upper = 1};
 constexpr FieldRange k_reflectance = {.lower = 0, .upper = 1, .why = "a surface reflects at most all light"};
 constexpr FieldRange k_cosine = {.lower = -1, .upper = 1, .is_open = true};
 constexpr FieldRange k_half_turn = {.lower = 0, .upper = 180, .is_open = true};
+constexpr FieldRange k_elevation = {.lower = -90, .upper = 90};
 constexpr FieldRange k_place = {.lower = -k_largest_coordinate, .upper = k_largest_coordinate};
 
 /// A single-precision value with the digits it has, not those of its conversion to double.
@@ -40,7 +44,8 @@ void assign(double& to, const FieldValue& value) {
 void assign(float& to, const FieldValue& value) {
   to = static_cast<float>(std::get<double>(value));
 }
-void assign(std::optional<float>& to, const FieldValue& value) {
+template <typename Number>
+void assign(std::optional<Number>& to, const FieldValue& value) {
   assign(to.emplace(), value);
 }
 void assign(glm::vec3& to, const FieldValue& value) {
@@ -82,6 +87,23 @@ auto member_field(FieldInfo info,
   info.is_single = std::is_same_v<Value, float> || std::is_same_v<Value, std::optional<float>>;
   return Field<Thing>{info, [](Thing& thing, const FieldValue& value) { assign(thing.*member, value); },
                       [](const Thing& thing) { return value_of(thing.*member); }, lack};
+}
+
+std::optional<FieldProblem> lack_in_sun(const Light& light, std::string_view what, std::string_view remedy) {
+  if (!is_sun(light)) return std::nullopt;
+  return FieldProblem{fmt::format("the light is a sun, which has no {}", what), std::string(remedy)};
+}
+
+std::optional<FieldProblem> lack_in_lamp(const Light& light, std::string_view what, std::string_view remedy) {
+  if (is_sun(light)) return std::nullopt;
+  return FieldProblem{fmt::format("the light is a lamp, which has no {}", what), std::string(remedy)};
+}
+
+void set_direction(Light& light, const FieldValue& value) {
+  const auto towards = std::get<glm::dvec3>(value);
+  // Scaling first keeps the squares of very short and very long vectors from vanishing or overflowing.
+  light.towards =
+      glm::normalize(towards / std::max({std::abs(towards.x), std::abs(towards.y), std::abs(towards.z)}));
 }
 
 std::optional<FieldProblem> lack_of_g(const Medium& medium) {
@@ -134,16 +156,40 @@ std::span<const Field<Camera>> fields() {
 template <>
 std::span<const Field<Light>> fields() {
   static const std::array table = {
-      member_field<&Light::position>({"light", "light-position", vector, "X,Y,Z", "at", "where the light is",
-                                      "m", "needs --intensity", "", k_place}),
-      member_field<&Light::intensity>({"light", "intensity", colour, "R,G,B", "intensity",
-                                       "radiant intensity of the light", "W/sr", "at most 1e30", "",
-                                       k_intensity}),
+      member_field<&Light::position>(
+          {"light", "light-position", vector, "X,Y,Z", "at", "where the light is, which makes it a lamp", "m",
+           "needs --intensity", "", k_place},
+          [](const Light& light) { return lack_in_sun(light, "position", "give its direction"); }),
+      member_field<&Light::intensity>(
+          {"light", "intensity", colour, "R,G,B", "intensity", "radiant intensity of a lamp", "W/sr",
+           "at most 1e30", "", k_intensity},
+          [](const Light& light) { return lack_in_sun(light, "intensity", "give its irradiance"); }),
       member_field<&Light::texture>(
           {"light", "light-texture", file, "FILE.exr", "textured by",
            "what the light radiates by direction, relative to its intensity: an equirectangular image, "
            "+Y at the top, +Z in the middle, +X to the left of it",
-           "", "for vsv it needs integral=riemann"}),
+           "", "for vsv it needs integral=riemann"},
+          [](const Light& light) { return lack_in_sun(light, "texture", "textured lights are lamps"); }),
+      Field<Light>{
+          {.group = "sun",
+           .name = "sun",
+           .kind = direction,
+           .placeholder = "X,Y,Z",
+           .label = "towards",
+           .meaning = "direction towards the sun, of any length; the sun stands in for a lamp",
+           .note = "needs --irradiance",
+           .own_key = "towards"},
+          set_direction,
+          [](const Light& light) { return value_of(light.towards); },
+          [](const Light& light) { return lack_in_lamp(light, "direction", "give its position, or a sun"); }},
+      member_field<&Light::irradiance>(
+          {"sun", "irradiance", colour, "R,G,B", "irradiance",
+           "of the sun, on a surface that faces it; without --fog-top its path through the medium has no "
+           "length, and this is what arrives in the scene, unattenuated",
+           "W/m2", "at most 1e25", "", k_irradiance},
+          [](const Light& light) {
+            return lack_in_lamp(light, "irradiance", "give its intensity, or a sun");
+          }),
   };
   return table;
 }
@@ -168,6 +214,11 @@ std::span<const Field<Medium>> fields() {
            "part of rayleigh in hoffman-preetham, 0 to 1; the rest is henyey-greenstein", "", "", "0.5",
            k_fraction},
           lack_of_mix),
+      member_field<&Medium::top>(
+          {"medium", "fog-top", number, "Y", "below y =",
+           "height of the medium's top in the world, which then fills what lies below, and attenuates the "
+           "sun's path through it",
+           "m", "", "none: the medium fills all of space, and the sun's own path has no length", k_place}),
   };
   return table;
 }
@@ -215,11 +266,34 @@ const FieldInfo& light_choice() {
   return k_info;
 }
 
+const FieldInfo& sun_angles() {
+  static constexpr FieldInfo k_info = {
+      .group = "sun",
+      .name = "sun-angles",
+      .kind = angles,
+      .placeholder = "AZIMUTH,ELEVATION",
+      .label = "",
+      .meaning = "the same by its azimuth, from +Z towards +X, and its elevation above the horizon",
+      .unit = "degrees",
+      .note = "needs --irradiance",
+      .range = k_elevation};
+  return k_info;
+}
+
+glm::dvec3 direction_of_angles(glm::dvec2 angles) {
+  const double azimuth = glm::radians(angles.x), elevation = glm::radians(angles.y);
+  return {std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
+          std::cos(elevation) * std::cos(azimuth)};
+}
+
 std::span<const FieldInfo* const> every_field() {
   static const std::vector<const FieldInfo*> infos = [] {
     std::vector<const FieldInfo*> list;
     const auto add = [&](auto fields) {
-      for (const auto& field : fields) list.push_back(&field);
+      for (const auto& field : fields) {
+        list.push_back(&field);
+        if (field.name == "sun") list.push_back(&sun_angles());
+      }
     };
     list.push_back(&camera_choice());
     add(fields<Camera>());
@@ -234,6 +308,7 @@ std::span<const FieldInfo* const> every_field() {
 }
 
 std::string FieldInfo::key() const {
+  if (!own_key.empty()) return std::string(own_key);
   if (name == group) return "name";
   std::string key(name);
   const std::string prefix = fmt::format("{}-", group);
@@ -267,6 +342,13 @@ std::optional<FieldProblem> FieldInfo::problem(const FieldValue& value) const {
     return wrong(fmt::format("an image of {}x{} has no pixels", pixels.x, pixels.y));
   }
   if (kind == file) return std::nullopt;  // a LightTexture is one that can be
+  if (kind == angles) {
+    const auto value_of_angles = std::get<glm::dvec2>(value);
+    if (!std::isfinite(value_of_angles.x)) return wrong(fmt::format("{} is not finite", value_of_angles.x));
+    if (value_of_angles.y >= range.lower && value_of_angles.y <= range.upper) return std::nullopt;
+    return wrong(fmt::format("the elevation {} is not between {} and {} {}", value_of_angles.y, range.lower,
+                             range.upper, unit));
+  }
 
   const glm::dvec3 parts = kind == number ? glm::dvec3(std::get<double>(value)) : std::get<glm::dvec3>(value);
   for (int i = 0; i < 3; ++i) {
@@ -286,6 +368,7 @@ std::optional<FieldProblem> FieldInfo::problem(const FieldValue& value) const {
     return wrong(fmt::format("{} is not between {} and {}{}{}", parts[i], range.lower, range.upper,
                              unit.empty() ? "" : " ", unit));
   }
+  if (kind == direction && parts == glm::dvec3(0.0)) return wrong("it has no length, and so no direction");
   return std::nullopt;
 }
 
@@ -295,7 +378,10 @@ FieldValue value_of_text(const FieldInfo& field, const std::string& where, std::
     case number:
       return parse_number(where, text);
     case vector:
+    case direction:
       return parse_vector(where, text);
+    case angles:
+      return parse_pair(where, text);
     case colour:
       return parse_colour(where, text);
     case word:
@@ -311,6 +397,7 @@ FieldValue value_of_text(const FieldInfo& field, const std::string& where, std::
 std::string text_of(const FieldValue& value) {
   struct Writer {
     std::string operator()(double v) const { return fmt::format("{}", v); }
+    std::string operator()(glm::dvec2 v) const { return fmt::format("{},{}", v.x, v.y); }
     std::string operator()(glm::dvec3 v) const { return fmt::format("{},{},{}", v.x, v.y, v.z); }
     std::string operator()(const std::string& v) const { return v; }
     std::string operator()(glm::ivec2 v) const { return fmt::format("{}x{}", v.x, v.y); }

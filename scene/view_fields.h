@@ -22,16 +22,18 @@
 namespace airlight::scene {
 
 enum class FieldKind {
-  number,  ///< double
-  vector,  ///< glm::dvec3
-  colour,  ///< RGB, none negative, within single precision: glm::dvec3; one number stands for all three
-  word,    ///< one of the field's words, or any where it lists none: std::string
-  file,    ///< a light texture, written as the name of its file
-  size,    ///< width and height, both at least 1: glm::ivec2
+  number,     ///< double
+  vector,     ///< glm::dvec3
+  direction,  ///< glm::dvec3 of any length but 0; only its direction is kept
+  angles,     ///< azimuth and elevation of a direction [degrees]: glm::dvec2
+  colour,     ///< RGB, none negative, within single precision: glm::dvec3; one number stands for all three
+  word,       ///< one of the field's words, or any where it lists none: std::string
+  file,       ///< a light texture, written as the name of its file
+  size,       ///< width and height, both at least 1: glm::ivec2
 };
 
-using FieldValue =
-    std::variant<double, glm::dvec3, std::string, glm::ivec2, std::shared_ptr<const LightTexture>>;
+using FieldValue = std::variant<double, glm::dvec2, glm::dvec3, std::string, glm::ivec2,
+                                std::shared_ptr<const LightTexture>>;
 
 /// What is wrong with a value; whoever took it from the user says where.
 struct FieldProblem {
@@ -48,9 +50,8 @@ struct FieldRange {
 
 /// What a field is, whatever it is a field of.
 struct FieldInfo {
-  std::string_view
-      group;              ///< table of a shot and object of the results; empty where it stands outside of any
-  std::string_view name;  ///< the option, without dashes
+  std::string_view group;  ///< table of a shot; empty where it stands outside of any
+  std::string_view name;   ///< the option, without dashes
   FieldKind kind;
   std::string_view placeholder;  ///< stands for a value in the help
   std::string_view label;        ///< goes before a value in reports and panels
@@ -60,7 +61,8 @@ struct FieldInfo {
   std::string_view usual{};  ///< what it is where it is not given
   FieldRange range{};
   std::span<const std::string_view> words{};
-  bool is_single = false;  ///< of a number: it is kept in single precision
+  std::string_view own_key{};  ///< its key, where that does not follow from its name
+  bool is_single = false;      ///< of a number: it is kept in single precision
 
   /// Its key in a shot and in the results: the name without the group, '_' for '-'; "name", where it names
   /// one of the group.
@@ -123,17 +125,29 @@ void for_each_value(const Thing& thing, const Visit& visit) {
 }
 
 /// The same for a whole view: its camera, its first light, its medium and what is its own.
+/// @param visit (part, field, value); the part is "camera", "light", "medium", or empty for the view's own
 template <typename Visit>
 void for_each_value_of_view(const View& view, const Visit& visit) {
-  for_each_value(view.camera, visit);
-  for_each_value(view.lights[0], visit);
-  for_each_value(view.medium, visit);
-  for_each_value(view, visit);
+  const auto visit_part = [&](std::string_view part, const auto& thing) {
+    for_each_value(thing,
+                   [&](const FieldInfo& field, const FieldValue& value) { visit(part, field, value); });
+  };
+  visit_part("camera", view.camera);
+  visit_part("light", view.lights[0]);
+  visit_part("medium", view.medium);
+  visit_part("", view);
 }
 
 /// What chooses one of the things that a scene brings, by name or by number from 0.
 const FieldInfo& camera_choice();
 const FieldInfo& light_choice();
+
+/// Where the sun stands by its angles: another way to write the field "sun".
+const FieldInfo& sun_angles();
+
+/// The direction of unit length, world axes.
+/// @param angles azimuth from +Z towards +X, elevation above the horizon [degrees]
+glm::dvec3 direction_of_angles(glm::dvec2 angles);
 
 /// All of the above, in the order of the help.
 std::span<const FieldInfo* const> every_field();

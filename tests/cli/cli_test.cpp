@@ -152,7 +152,7 @@ TEST_F(Commands, ScenesListsEveryBuiltinScene) {
   const Result result = airlight({"scenes"});
   EXPECT_EQ(result.exit_code, 0);
   for (const char* name :
-       {"window", "fence", "spheres", "toroid", "cornell", "empty", "half-space", "sphere"}) {
+       {"window", "nave", "fence", "spheres", "toroid", "cornell", "empty", "half-space", "sphere"}) {
     EXPECT_THAT(result.out, HasSubstr(name));
   }
   EXPECT_THAT(result.err, IsEmpty());
@@ -262,6 +262,27 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{{"--eye", "0,0,1", "--target", "0,0,1"}, "eye and target"},
         Misuse{{"--up", "0,0,1"}, "parallel"}, Misuse{{"--light-position", "0,1,0"}, "--intensity"},
         Misuse{{"--light", "0", "--light-position", "0,1,0", "--intensity", "1"}, "--light"},
+        Misuse{{"--sun", "0,1,0"}, "--sun: it needs --irradiance"},
+        Misuse{{"--sun-angles", "0,40"}, "--sun-angles: it needs --irradiance"},
+        Misuse{{"--sun", "0,1,0", "--sun-angles", "0,40", "--irradiance", "1"},
+               "--sun: --sun-angles contradicts it"},
+        Misuse{{"--sun", "0,1,0", "--irradiance", "1", "--light", "0"}, "--light: --sun contradicts it"},
+        Misuse{{"--sun-angles", "0,40", "--irradiance", "1", "--light-position", "0,1,0"},
+               "--light-position: --sun-angles contradicts it"},
+        Misuse{{"--light-position", "0,1,0", "--intensity", "1", "--irradiance", "1"},
+               "--light-position: --irradiance contradicts it"},
+        Misuse{{"--sun", "0,1,0", "--intensity", "1"}, "--intensity: --sun contradicts it"},
+        Misuse{{"--irradiance", "1"}, "--irradiance: the light is a lamp, which has no irradiance"},
+        Misuse{{"render", "nave", "-o", "x.exr", "--intensity", "1"},
+               "--intensity: the light is a sun, which has no intensity; give its irradiance"},
+        Misuse{{"--sun", "0,0,0", "--irradiance", "1"}, "--sun: it has no length"},
+        Misuse{{"--sun", "0,1", "--irradiance", "1"}, "--sun: '0,1' is not three finite numbers"},
+        Misuse{{"--sun-angles", "0,91", "--irradiance", "1"}, "--sun-angles: the elevation 91"},
+        Misuse{{"--sun-angles", "40", "--irradiance", "1"}, "--sun-angles: '40' is not two"},
+        Misuse{{"--sun", "0,1,0", "--irradiance=-1"}, "--irradiance: it must not be negative"},
+        Misuse{{"--sun", "0,1,0", "--irradiance", "1e25", "--sigma-s", "2"}, "lower --irradiance"},
+        Misuse{{"--sun", "1,0,0", "--irradiance", "1", "--fog-top", "2"}, "leave out --fog-top"},
+        Misuse{{"--fog-top", "nan"}, "--fog-top"}, Misuse{{"--fog-top", "1e19"}, "--fog-top"},
         Misuse{{"--phase", "mie"}, "unknown"}, Misuse{{"--rayleigh-weight", "0.5"}, "hoffman-preetham"},
         Misuse{{"--volume", "froxel"}, "reference-march"}, Misuse{{"--surface", "psv"}, "shadow-map, vsv"},
         Misuse{{"--volume", "vsv,none"}, "one method"}, Misuse{{"--volume", ""}, "--volume"},
@@ -587,6 +608,7 @@ TEST_F(SceneFile, WithoutLightIsAnErrorThatSaysHowToGiveOne) {
   const Result result = airlight({"render", "two.obj", "-o", "x.exr"});
   expect_one_line_error(result, 2);
   EXPECT_THAT(result.err, HasSubstr("--light-position"));
+  EXPECT_THAT(result.err, HasSubstr("--sun"));
 }
 
 TEST_F(SceneFile, WithoutCameraIsFittedAndExposedAutomatically) {
@@ -688,14 +710,17 @@ TEST_F(Compare, ResultsFollowTheirSchema) {
 
   // Every field of a view is documented.
   const Json& view = schema.at("properties").at("view").at("properties");
-  scene::View whole;
+  scene::View whole, sunny;
   whole.lights[0].texture =
       std::make_shared<const scene::LightTexture>("", glm::ivec2(1), std::vector<glm::vec3>(1));
-  whole.medium.phase = scene::PhaseFunction::hoffman_preetham;
-  for_each_value_of_view(whole, [&](const scene::FieldInfo& field, const scene::FieldValue&) {
-    const Json& group = field.group.empty() ? view : view.at(std::string(field.group)).at("properties");
-    EXPECT_TRUE(group.contains(field.key())) << field.name;
-  });
+  whole.medium = {.phase = scene::PhaseFunction::hoffman_preetham, .top = 1.0};
+  sunny.lights = {scene::sun("", {0, 1, 0}, glm::vec3(1.0f))};
+  for (const scene::View& shown : {whole, sunny})
+    for_each_value_of_view(
+        shown, [&](std::string_view part, const scene::FieldInfo& field, const scene::FieldValue&) {
+          const Json& group = part.empty() ? view : view.at(std::string(part)).at("properties");
+          EXPECT_TRUE(group.contains(field.key())) << field.name;
+        });
 
   // The check itself sees what is missing, what is not documented, and what is of the wrong type.
   Json broken = results;

@@ -110,31 +110,53 @@ TEST(ViewOptions, NameTheWeightOfAPhaseFunctionThatHasOne) {
   EXPECT_EQ(json::parse(results_json(comparison))["view"]["medium"]["rayleigh_weight"], 0.3);
 }
 
+/// Expects each field in the options and in the results, but those that a light of this kind has not.
+void expect_every_field(const Comparison& comparison) {
+  const scene::View& view = comparison.view;
+  const auto options = view_options(view);
+  const json results = json::parse(results_json(comparison))["view"];
+  std::size_t count = 0;
+  const auto look_for = [&]<typename Thing>(const Thing& thing, const json& part) {
+    for (const scene::Field<Thing>& field : scene::fields<Thing>()) {
+      const bool is_there = std::is_same_v<Thing, scene::Light> ? !field.lack || !field.lack(thing) : true;
+      EXPECT_EQ(options.contains(std::string(field.name)), is_there) << field.name;
+      EXPECT_EQ(part.contains(field.key()), is_there) << field.name;
+      count += is_there;
+    }
+  };
+  look_for(view.camera, results.at("camera"));
+  look_for(view.lights[0], results.at("light"));
+  look_for(view.medium, results.at("medium"));
+  look_for(view, results);
+  EXPECT_EQ(options.size(), count);
+}
+
 TEST(View, HasEveryFieldInMetadataAndResults) {
   Comparison comparison = two_runs();
   scene::View& view = comparison.view;
   view.lights[0].texture =
       std::make_shared<const scene::LightTexture>("a.exr", glm::ivec2(1), std::vector<glm::vec3>(1));
   view.medium.phase = scene::PhaseFunction::hoffman_preetham;
-  const auto options = view_options(view);
+  view.medium.top = 16.0;
+  expect_every_field(comparison);
   const json results = json::parse(results_json(comparison))["view"];
-  std::size_t count = 0;
-  const auto look_for = [&](auto fields) {
-    for (const scene::FieldInfo& field : fields) {
-      EXPECT_TRUE(options.contains(std::string(field.name))) << field.name;
-      const json& group = field.group.empty() ? results : results.at(std::string(field.group));
-      EXPECT_TRUE(group.contains(field.key())) << field.name;
-      ++count;
-    }
-  };
-  look_for(scene::fields<scene::Camera>());
-  look_for(scene::fields<scene::Light>());
-  look_for(scene::fields<scene::Medium>());
-  look_for(scene::fields<scene::View>());
-  EXPECT_EQ(options.size(), count);
   EXPECT_EQ(results["light"]["texture"], "a.exr");
   EXPECT_EQ(results["size"], (json{512, 512}));
   EXPECT_EQ(results["camera"]["target"], (json{0.0, 0.0, -1.0}));
+}
+
+TEST(View, OfASunHasItsDirectionAndIrradiance) {
+  Comparison comparison = two_runs();
+  scene::View& view = comparison.view;
+  view.lights[0] = scene::sun("noon", {0, 2, 0}, {3, 2, 1});
+  view.medium = {.phase = scene::PhaseFunction::hoffman_preetham, .top = 16.0};
+  expect_every_field(comparison);
+  const json results = json::parse(results_json(comparison))["view"];
+  EXPECT_EQ(results["light"],
+            (json{{"name", "noon"}, {"towards", {0.0, 1.0, 0.0}}, {"irradiance", {3.0, 2.0, 1.0}}}));
+  EXPECT_EQ(results["medium"]["fog_top"], 16.0);
+  EXPECT_EQ(view_options(view).at("sun"), "0,1,0");
+  EXPECT_EQ(view_options(view).at("fog-top"), "16");
 }
 
 TEST(View, HasNoFieldsThatItsMediumHasNot) {

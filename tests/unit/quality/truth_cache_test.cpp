@@ -86,6 +86,9 @@ TEST_F(Cache, TellsApartWhateverATruthDependsOn) {
   expect_new("absorption", [&] { view_.medium.sigma_a.z = 0.2f; });
   expect_new("phase function", [&] { view_.medium.phase = scene::PhaseFunction::rayleigh; });
   expect_new("g", [&] { view_.medium.g = 0.1f; });
+  // What is none of a lamp's tells lights apart as well; the key is made of all that a light has.
+  expect_new("direction", [&] { view_.lights[0].towards = {1, 0, 0}; });
+  expect_new("irradiance", [&] { view_.lights[0].irradiance.z = 2; });
   expect_new("Rayleigh's part", [&] { view_.medium.rayleigh_weight = 0.1f; });
   expect_new("texture", [&] {
     view_.lights[0].texture =

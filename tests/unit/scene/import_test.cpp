@@ -560,7 +560,27 @@ TEST_F(ImportGltf, PutsLightsWhereTheWholeTreeMovesThem) {
   expect_near(load(document).lights.at(0).position, {4, 0, 3});
 }
 
+TEST_F(ImportGltf, ReadsDirectionalLightsAsSuns) {
+  // Turned by a quarter about X, −Z points up: light rises.
+  const json node = {{"name", "dawn"}, {"rotation", {std::sqrt(0.5), 0, 0, std::sqrt(0.5)}}};
+  const Scene scene =
+      load(with_light({{"type", "directional"}, {"color", {1, 0.5, 0}}, {"intensity", 20}}, node));
+  ASSERT_EQ(scene.lights.size(), 1u);
+  ASSERT_TRUE(is_sun(scene.lights[0]));
+  EXPECT_EQ(scene.lights[0].name, "dawn");
+  expect_near(scene.lights[0].towards, {0, -1, 0});
+  EXPECT_EQ(scene.lights[0].irradiance, V(20, 10, 0)) << "lux, one to one";
+  EXPECT_THAT(scene.report.warnings, IsEmpty());
+
+  const Scene plain = load(with_light({{"type", "directional"}}, {{"scale", {1, 1, 5}}}));
+  expect_near(plain.lights.at(0).towards, {0, 0, 1});
+  EXPECT_EQ(plain.lights.at(0).irradiance, V(1.0f));
+}
+
 TEST_F(ImportGltf, RefusesBrokenLights) {
+  expect_error(with_light({{"type", "directional"}}, {{"scale", {1, 1, 0}}}),
+               "node 1: the light's direction: it has no length");
+  expect_error(with_light({{"type", "directional"}, {"intensity", -1}}), "the light's intensity -1 is not");
   expect_error(with_light({{"type", "point"}, {"intensity", -1}}), "node 1: the light's intensity -1 is not");
   expect_error(with_light({{"type", "point"}, {"intensity", 1e300}}), "the light's intensity 1e+300 is not");
   expect_error(with_light({{"type", "point"}, {"color", {1, -2, 1}}}), "the light's intensity -2 is not");
@@ -590,7 +610,6 @@ TEST_F(ImportGltf, WarnsOfWhatItLeavesOutWithCounts) {
     return document;
   };
   expect_warning("spot lights ignored (1)", with_light({{"type", "spot"}, {"spot", json::object()}}));
-  expect_warning("directional lights ignored (1)", with_light({{"type", "directional"}}));
   expect_warning("lights of unknown type ignored (1)", with_light({{"type", "laser"}}));
   expect_warning("ranges of lights ignored (1)", with_light({{"type", "point"}, {"range", 5}}));
   expect_warning("orthographic cameras ignored (1)",
@@ -624,10 +643,10 @@ TEST_F(ImportGltf, WarnsOfWhatItLeavesOutWithCounts) {
 }
 
 TEST_F(ImportGltf, CountsEachUseOfALight) {
-  json document = with_light({{"type", "directional"}});
+  json document = with_light({{"type", "spot"}, {"spot", json::object()}});
   for (int i = 0; i < 2; ++i) document = with_node(document["nodes"][1], document);
   EXPECT_THAT(load(document).report.warnings,
-              ElementsAre("directional lights ignored (3): only point lights are rendered"));
+              ElementsAre("spot lights ignored (3): only point lights and suns are rendered"));
 }
 
 TEST_F(ImportGltf, LoadsNoImages) {
@@ -1270,7 +1289,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Expectation{"dragon_871k.glb", 871'414, 108, 0, 0},
                     Expectation{"lights_bevy_Cubes_pointlight.glb", 36, 0, 0, 1},
                     Expectation{"lights_bevy_VolumetricFogExample_geom.glb", 360, 0, 0, 0},
-                    Expectation{"lights_playcanvas_Lights.glb", 12, 0, 1, 1},
+                    Expectation{"lights_playcanvas_Lights.glb", 12, 0, 1, 2},
                     Expectation{"lights_playcanvas_geometry_camera_light.glb", 14, 0, 1, 1},
                     Expectation{"lights_sphere.gltf", 224, 0, 0, 1}),
     [](const auto& test) {
@@ -1297,8 +1316,9 @@ TEST(SharedFile, KeepsLightsAndCamerasOfPlaycanvas) {
   EXPECT_EQ(scene.lights.at(0).intensity, V(5, 0, 0));
   expect_near(scene.cameras.at(0).eye, {7.358891487121582, 4.958309173583984, 6.925790786743164});
   EXPECT_NEAR(scene.cameras.at(0).vertical_fov_degrees, 22.8952, 1e-4);
-  EXPECT_THAT(scene.report.warnings,
-              ElementsAre(HasSubstr("directional lights ignored (1)"), HasSubstr("spot lights ignored (2)")));
+  EXPECT_THAT(scene.report.warnings, ElementsAre(HasSubstr("spot lights ignored (2)")));
+  ASSERT_EQ(scene.lights.size(), 2u);
+  EXPECT_TRUE(is_sun(scene.lights[1]) != is_sun(scene.lights[0]));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@ namespace {
 TEST(Numbers, AreReadExactly) {
   EXPECT_EQ(parse_count("", "2147483647"), 2147483647);
   EXPECT_EQ(parse_number("", "-1.5e-3"), -1.5e-3);
+  EXPECT_EQ(parse_pair("", "-1,2e1"), glm::dvec2(-1.0, 20.0));
   EXPECT_EQ(parse_vector("", "-1,2,3e2"), glm::dvec3(-1.0, 2.0, 300.0));
   EXPECT_EQ(parse_colour("", "1,2,3"), glm::dvec3(1.0, 2.0, 3.0));
   EXPECT_EQ(parse_colour("", "0.5"), glm::dvec3(0.5));
@@ -28,6 +29,9 @@ TEST(Numbers, RefuseWhatIsNotOneNumber) {
 TEST(Numbers, RefuseWrongCounts) {
   for (const char* text : {"", "1", "1,2", "1,2,3,4", "1,,3", "1,2,nan", "1,2,3,"}) {
     EXPECT_THROW(parse_vector("", text), Error) << text;
+  }
+  for (const char* text : {"", "1", "1,2,3", "1,", "1,inf"}) {
+    EXPECT_THROW(parse_pair("", text), Error) << text;
   }
   for (const char* text : {"", "1,2", "1,2,3,4", "1,,3", "nan", "1,2,inf"}) {
     EXPECT_THROW(parse_colour("", text), Error) << text;

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/error.h"
+#include "scene/light_texture.h"
 
 namespace airlight::scene {
 namespace {
@@ -159,6 +160,60 @@ TEST(Validate, RefusesWhatNoMethodCanRender) {
     expect_refused(bad, "medium, rayleigh_weight", [&](View& v) { v.medium.rayleigh_weight = weight; });
   expect_refused(bad, "medium, phase", [](View& v) { v.medium.phase = static_cast<PhaseFunction>(7); });
   expect_refused(ExitCode::usage, "no pixels", [](View& v) { v.size.x = 0; });
+}
+
+View sunny_view() {
+  View view;
+  view.lights = {sun("sun", {3, 4, 0}, glm::vec3(5.0f))};
+  return view;
+}
+
+TEST(Validate, AcceptsASunWhereverTheEyeIs) {
+  View view = sunny_view();
+  EXPECT_NO_THROW(validate(view));
+  view.camera.eye = view.lights[0].position;
+  EXPECT_NO_THROW(validate(view));
+  view.lights[0] = sun("low", {1, -1, 0}, glm::vec3(0.0f));
+  EXPECT_NO_THROW(validate(view)) << "without a layer it may stand anywhere";
+  view = sunny_view();
+  view.medium.top = -10.0;
+  EXPECT_NO_THROW(validate(view));
+}
+
+TEST(Validate, RefusesWhatNoSunCanBe) {
+  const auto expect_refused = [](ExitCode code, const std::string& text, auto&& change) {
+    View view = sunny_view();
+    change(view);
+    expect_error(code, text, [&] { validate(view); });
+  };
+  const ExitCode bad = ExitCode::bad_file;
+  expect_refused(bad, "light 'sun', towards: nan is not finite",
+                 [](View& v) { v.lights[0].towards.x = k_nan; });
+  expect_refused(bad, "light 'sun', towards: it has no length",
+                 [](View& v) { v.lights[0].towards = glm::dvec3(0.0); });
+  expect_refused(bad, "light 'sun', irradiance: it must not be negative",
+                 [](View& v) { v.lights[0].irradiance.y = -1.0f; });
+  expect_refused(bad, "textured lights are lamps", [](View& v) {
+    v.lights[0].texture =
+        std::make_shared<LightTexture>("t", glm::ivec2(1), std::vector<glm::vec3>{glm::vec3(1.0f)});
+  });
+  expect_refused(ExitCode::usage, "lower --irradiance", [](View& v) {
+    v.lights[0].irradiance.z = 1e25f;
+    v.medium.sigma_s.x = 2.0f;
+  });
+  for (double height : {0.0, -0.5, 1e-9})
+    expect_refused(ExitCode::usage, "at or below the horizon never reaches", [&](View& v) {
+      v.lights[0] = sun("low", {1, height, 0}, glm::vec3(1.0f));
+      v.medium.top = 5.0;
+    });
+  expect_refused(bad, "medium, fog_top: inf is not finite", [](View& v) { v.medium.top = k_infinity; });
+  expect_refused(bad, "medium, fog_top: 2e+18 is not between", [](View& v) { v.medium.top = 2e18; });
+}
+
+TEST(DirectionTo, IsTowardsTheLight) {
+  expect_near(direction_to(point_light("", {1, 2, 3}, glm::vec3(1.0f)), {1, 0, 3}), {0, 1, 0});
+  for (glm::dvec3 from : {glm::dvec3(0.0), glm::dvec3(1e9, 5, -7)})
+    expect_near(direction_to(sunny_view().lights[0], from), {0.6, 0.8, 0});
 }
 
 TEST(FitCamera, SeesAllOfTheGeometry) {

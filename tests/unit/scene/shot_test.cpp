@@ -1,5 +1,6 @@
 #include "scene/shot.h"
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -140,7 +141,8 @@ TEST_F(Shot, RefusesKeysThatItDoesNotKnow) {
   expect_error("scene = 'cornell'\n[light]\nlight_position = 1\n",
                "line 3: there is no key 'light_position' in [light]");
   expect_error("scene = 'cornell'\n[medium]\nsigma-s = 1\n", "line 3: there is no key 'sigma-s' in [medium]");
-  expect_error("scene = 'cornell'\n[sun]\n", "line 2: there is no key 'sun'");
+  expect_error("scene = 'cornell'\n[moon]\n", "line 2: there is no key 'moon'");
+  expect_error("scene = 'cornell'\n[sun]\nname = 'sun'\n", "line 3: there is no key 'name' in [sun]");
 }
 
 TEST_F(Shot, RefusesValuesOfTheWrongType) {
@@ -192,6 +194,44 @@ TEST_F(Shot, RefusesValuesThatCannotBe) {
   expect_error(scene + "[medium]\nrayleigh_weight = 0.5\n",
                "line 3, medium.rayleigh_weight: the phase function isotropic mixes nothing");
   expect_error(scene + "[medium]\ng = 0.5\n", "line 3, medium.g: the phase function isotropic has no g");
+}
+
+TEST_F(Shot, HasASunInPlaceOfALamp) {
+  const Scene scene = load(
+      "scene = 'cornell'\n[sun]\ntowards = [0, 3, 4]\nirradiance = [3, 2.5, 1]\n"
+      "[medium]\nfog_top = 16\n");
+  ASSERT_EQ(scene.lights.size(), 2u);
+  const Light& sun = scene.lights[0];
+  ASSERT_TRUE(is_sun(sun));
+  EXPECT_NEAR(glm::distance(sun.towards, D(0, 0.6, 0.8)), 0.0, 1e-15);
+  EXPECT_EQ(sun.irradiance, V(3, 2.5f, 1));
+  EXPECT_EQ(scene.medium.top, 16.0);
+
+  const Light by_angles =
+      load("scene = 'models/one.obj'\n[sun]\nangles = [90, 30]\nirradiance = 2\n").lights.at(0);
+  ASSERT_TRUE(is_sun(by_angles));
+  EXPECT_NEAR(glm::distance(by_angles.towards, D(std::sqrt(0.75), 0.5, 0)), 0.0, 1e-15);
+  EXPECT_EQ(by_angles.irradiance, V(2));
+}
+
+TEST_F(Shot, RefusesSunsThatCannotBe) {
+  const std::string scene = "scene = 'cornell'\n";
+  const std::string sun = scene + "[sun]\nirradiance = 1\n";
+  expect_error(scene + "[light]\nname = 'ceiling'\n" + "[sun]\ntowards = [0, 1, 0]\nirradiance = 1\n",
+               "line 4, sun: [light] contradicts it");
+  expect_error(scene + "[light]\n[sun]\n", "line 3, sun: [light] contradicts it");
+  expect_error(sun + "towards = [0, 0, 0]\n", "line 4, sun.towards: it has no length");
+  expect_error(sun + "towards = [0, 1]\n", "line 4, sun.towards: it must be three numbers");
+  expect_error(sun + "towards = [0, nan, 1]\n", "line 4, sun.towards: nan is not finite");
+  expect_error(sun + "angles = [0, 1, 2]\n", "line 4, sun.angles: it must be two numbers");
+  expect_error(sun + "angles = 30\n", "line 4, sun.angles: it must be two numbers");
+  expect_error(sun + "angles = [0, 91]\n", "line 4, sun.angles: the elevation 91 is not between");
+  expect_error(sun + "towards = [0, 1, 0]\nangles = [0, 90]\n", "line 4, sun.towards: angles contradicts it");
+  expect_error(sun, "line 3, sun.irradiance: the light is a lamp");
+  expect_error(scene + "[sun]\ntowards = [0, 1, 0]\n", "line 3, sun.towards: it needs irradiance");
+  expect_error(scene + "[sun]\nangles = [0, 40]\n", "line 3, sun.angles: it needs irradiance");
+  expect_error(sun + "towards = [1, 0, 0]\n[medium]\nfog_top = 2\n", "at or below the horizon");
+  expect_error(scene + "[medium]\nfog_top = [2]\n", "line 3, medium.fog_top: it must be a number");
 }
 
 TEST_F(Shot, NamesACameraOrALightByItsNumberToo) {

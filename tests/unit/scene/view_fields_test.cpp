@@ -1,9 +1,11 @@
 #include "scene/view_fields.h"
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <set>
+#include <type_traits>
 #include <vector>
 
 #include <fmt/format.h>
@@ -41,6 +43,15 @@ Scene complete() {
   return scene;
 }
 
+/// One that has the field.
+template <typename Thing>
+Thing owner_of(const Field<Thing>& field) {
+  auto thing = complete<Thing>();
+  if constexpr (std::is_same_v<Thing, Light>)
+    if (field.lack && field.lack(thing)) thing.kind = LightKind::sun;
+  return thing;
+}
+
 /// A text of that kind which is inside every field's range, and no field's default.
 std::string text_for(const FieldInfo& field) {
   switch (field.kind) {
@@ -48,6 +59,10 @@ std::string text_for(const FieldInfo& field) {
       return "0.7";
     case FieldKind::vector:
       return "-0.1,0.3333333333333333,7e-09";
+    case FieldKind::direction:
+      return "0,0,-1";
+    case FieldKind::angles:
+      return "30,45";
     case FieldKind::colour:
       return "0.1,0.33333334,1e-09";
     case FieldKind::word:
@@ -67,7 +82,7 @@ TYPED_TEST_SUITE(FieldsOf, Things);
 
 TYPED_TEST(FieldsOf, ReadBackTheTextThatTheyWereSetTo) {
   for (const Field<TypeParam>& field : fields<TypeParam>()) {
-    auto thing = complete<TypeParam>();
+    auto thing = owner_of(field);
     const std::string text = text_for(field);
     const FieldValue value = value_of_text(field, "", text, white);
     EXPECT_EQ(text_of(value), text) << field.name;
@@ -81,12 +96,13 @@ TYPED_TEST(FieldsOf, ReadBackTheTextThatTheyWereSetTo) {
 
 TYPED_TEST(FieldsOf, RefuseWhatIsNotFiniteAndStayAsTheyAre) {
   for (const Field<TypeParam>& field : fields<TypeParam>()) {
-    auto thing = complete<TypeParam>();
+    auto thing = owner_of(field);
     const auto before = field.get(thing);
     for (double bad : {k_nan, k_infinity, -k_infinity}) {
       std::vector<FieldValue> values;
       if (field.kind == FieldKind::number) values = {bad};
-      if (field.kind == FieldKind::vector || field.kind == FieldKind::colour)
+      if (field.kind == FieldKind::vector || field.kind == FieldKind::direction ||
+          field.kind == FieldKind::colour)
         values = {glm::dvec3(bad, 0, 0), glm::dvec3(0, bad, 0), glm::dvec3(0, 0, bad)};
       for (const FieldValue& value : values) {
         const auto wrong = field.set(thing, value);
@@ -175,10 +191,56 @@ TEST(Fields, AreNoneWhereAThingHasNone) {
     EXPECT_EQ(weight.set(medium, 0.25).has_value(), name != "hoffman-preetham");
   }
   EXPECT_FALSE(field<Light>("light-texture").get({}));
+  EXPECT_FALSE(field<Medium>("fog-top").get({}));
   EXPECT_FALSE(field<Scene>("exposure").get({}));
   Scene scene;
   scene.geometry.materials = {{}, {}};
   EXPECT_FALSE(field<Scene>("albedo").get(scene));
+}
+
+TEST(Fields, OfALampAndOfASunExcludeOneAnother) {
+  const std::set<std::string_view> of_sun = {"sun", "irradiance"};
+  for (const Field<Light>& field : fields<Light>()) {
+    Light lamp, sun = scene::sun("", {0, 1, 0}, glm::vec3(1.0f));
+    const FieldValue value = value_of_text(field, "", text_for(field), white);
+    EXPECT_EQ(field.set(lamp, value).has_value(), of_sun.contains(field.name)) << field.name;
+    EXPECT_EQ(field.set(sun, value).has_value(), !of_sun.contains(field.name)) << field.name;
+    EXPECT_EQ(field.get(lamp).has_value(), !of_sun.contains(field.name)) << field.name;
+    EXPECT_EQ(field.get(sun).has_value(), of_sun.contains(field.name)) << field.name;
+  }
+  const Light sun = scene::sun("", {0, 1, 0}, glm::vec3(1.0f));
+  EXPECT_EQ(field<Light>("intensity").lack(sun)->problem, "the light is a sun, which has no intensity");
+  EXPECT_EQ(field<Light>("irradiance").lack({})->problem, "the light is a lamp, which has no irradiance");
+  EXPECT_EQ(field<Light>("light-texture").lack(sun)->remedy, "textured lights are lamps");
+}
+
+TEST(Fields, OfASunKeepItsDirectionWhateverItsLength) {
+  for (double length : {1e-300, 1e-3, 1.0, 7.0, 1e300}) {
+    Light sun = {.kind = LightKind::sun};
+    ASSERT_FALSE(field<Light>("sun").set(sun, length * glm::dvec3(0.0, 0.6, -0.8)));
+    EXPECT_NEAR(glm::distance(sun.towards, glm::dvec3(0.0, 0.6, -0.8)), 0.0, 1e-15) << length;
+  }
+  EXPECT_EQ(problem<Light>("sun", "0,0,0"), "it has no length, and so no direction");
+  EXPECT_EQ(problem<Light>("irradiance", "1e26"), "it is more than 1e+25 W/m2");
+}
+
+TEST(Fields, AnglesOfASunAreItsAzimuthFromZTowardsXAndItsElevation) {
+  const auto expect = [](glm::dvec2 angles, glm::dvec3 direction) {
+    EXPECT_NEAR(glm::distance(direction_of_angles(angles), direction), 0.0, 1e-15);
+  };
+  expect({0, 0}, {0, 0, 1});
+  expect({90, 0}, {1, 0, 0});
+  expect({-90, 0}, {-1, 0, 0});
+  expect({123, 90}, {0, 1, 0});
+  expect({180, 30}, {0, 0.5, -std::sqrt(0.75)});
+  expect({90, -30}, {std::sqrt(0.75), -0.5, 0});
+  EXPECT_EQ(sun_angles().problem(glm::dvec2(1e4, -90)), std::nullopt);
+  EXPECT_EQ(sun_angles().problem(glm::dvec2(0, 91))->problem,
+            "the elevation 91 is not between -90 and 90 degrees");
+  for (double bad : {k_nan, k_infinity}) {
+    EXPECT_TRUE(sun_angles().problem(glm::dvec2(bad, 0)));
+    EXPECT_TRUE(sun_angles().problem(glm::dvec2(0, bad)));
+  }
 }
 
 TEST(Fields, OfAPhaseFunctionWithoutGForgetIt) {
@@ -192,6 +254,9 @@ TEST(Fields, HaveKeysThatFollowFromTheirNames) {
   EXPECT_EQ(field<Light>("intensity").key(), "intensity");
   EXPECT_EQ(field<Medium>("rayleigh-weight").key(), "rayleigh_weight");
   EXPECT_EQ(field<View>("size").key(), "size");
+  EXPECT_EQ(field<Light>("sun").key(), "towards");
+  EXPECT_EQ(sun_angles().key(), "angles");
+  EXPECT_EQ(field<Medium>("fog-top").key(), "fog_top");
   EXPECT_EQ(camera_choice().key(), "name");
   std::set<std::string> names, keys;
   for (const FieldInfo* info : every_field()) {
