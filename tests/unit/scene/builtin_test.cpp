@@ -65,8 +65,8 @@ double signed_volume(const Geometry& geometry) {
 TEST(Builtin, NamesAreKnownAndTheWindowIsTheDefault) {
   std::vector<std::string> names;
   for (const BuiltinScene& scene : builtin_scenes()) names.emplace_back(scene.name);
-  EXPECT_THAT(
-      names, ElementsAre("window", "fence", "spheres", "toroid", "cornell", "empty", "half-space", "sphere"));
+  EXPECT_THAT(names, ElementsAre("window", "nave", "fence", "spheres", "toroid", "cornell", "empty",
+                                 "half-space", "sphere"));
   for (const std::string& name : names) {
     ASSERT_NE(find_builtin(name), nullptr);
     EXPECT_EQ(find_builtin(name)->name, name);
@@ -107,7 +107,7 @@ TEST_P(EachBuiltin, IsCompleteAndKeepsTheContractOfGeometry) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Builtin, EachBuiltin,
-                         testing::Values("window", "fence", "spheres", "toroid", "cornell", "empty",
+                         testing::Values("window", "nave", "fence", "spheres", "toroid", "cornell", "empty",
                                          "half-space", "sphere"),
                          [](const auto& test) {
                            std::string name = test.param;
@@ -116,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(Builtin, EachBuiltin,
                          });
 
 TEST(Builtin, SolidsAreClosedAndFaceOutwards) {
-  for (const char* name : {"window", "fence", "spheres", "toroid", "cornell", "sphere"}) {
+  for (const char* name : {"window", "nave", "fence", "spheres", "toroid", "cornell", "sphere"}) {
     const Geometry geometry = find_builtin(name)->make().geometry;
     EXPECT_EQ(open_edges(geometry), 0u) << name;
     EXPECT_GT(signed_volume(geometry), 0.0) << name;
@@ -313,18 +313,21 @@ TEST(Window, HasTheSizeOfAnExample) {
   EXPECT_LE(triangles, 60'000u);
 }
 
+/// The outline of a window under an equilateral arch [m].
+struct Outline {
+  double x, half_width, sill, spring;
+  bool holds(double across, double y) const {
+    return y > sill &&
+           std::hypot(std::abs(across - x) + half_width, std::max(y - spring, 0.0)) < 2.0 * half_width;
+  }
+};
+
 /// Whether a light ray meets the middle of the front wall inside a window's outline, stone bars disregarded.
 bool passes_a_window(glm::dvec3 light, glm::dvec3 point) {
   const double t = (-8.5 - light.z) / (point.z - light.z);
   const glm::dvec3 at = light + t * (point - light);
-  struct {
-    double x, half_width, sill, spring;
-  } const windows[] = {{-4.0, 0.55, 2.2, 5.2}, {0.0, 2.3, 1.4, 5.0}, {4.0, 0.55, 2.2, 5.2}};
-  for (const auto& w : windows) {
-    const double x = std::abs(at.x - w.x), up = std::max(at.y - w.spring, 0.0);
-    if (at.y > w.sill && std::hypot(x + w.half_width, up) < 2.0 * w.half_width) return true;
-  }
-  return false;
+  constexpr Outline k_windows[] = {{-4.0, 0.55, 2.2, 5.2}, {0.0, 2.3, 1.4, 5.0}, {4.0, 0.55, 2.2, 5.2}};
+  return std::ranges::any_of(k_windows, [&](const Outline& window) { return window.holds(at.x, at.y); });
 }
 
 TEST(Window, LightEntersTheHallThroughTheWindowsAlone) {
@@ -354,6 +357,60 @@ TEST(Window, LightEntersTheHallThroughTheWindowsAlone) {
     EXPECT_TRUE(blocked) << "light leaks to " << point.x << " " << point.y << " " << point.z;
   }
   EXPECT_GT(lit, 30) << "the windows let light in";
+}
+
+/// Whether a ray from the point to the sun of the nave meets the outer half of the south or the east wall
+/// inside a window's outline.
+bool passes_a_window_of_the_nave(glm::dvec3 towards, glm::dvec3 point) {
+  for (double depth : {0.5, 0.9}) {
+    const glm::dvec3 south = point + (8.6 + depth - point.x) / towards.x * towards;
+    for (int bay = 0; bay < 7; ++bay)
+      if (Outline{-29.0 + 6.0 * bay, 1.05, 2.8, 8.4}.holds(south.z, south.y)) return true;
+    const glm::dvec3 east = point + (-32.0 - depth - point.z) / towards.z * towards;
+    for (const Outline& window : {Outline{-6.75, 0.8, 3.2, 7.6}, {0.0, 2.6, 4.4, 9.2}, {6.75, 0.8, 3.2, 7.6}})
+      if (window.holds(east.x, east.y)) return true;
+  }
+  return false;
+}
+
+TEST(Nave, TheSunEntersThroughTheWindowsAlone) {
+  const Scene scene = find_builtin("nave")->make();
+  const glm::dvec3 towards = scene.lights[0].towards;
+  std::mt19937 random(4);
+  const auto between = [&](double a, double b) {
+    return std::uniform_real_distribution<double>(a, b)(random);
+  };
+  std::vector<glm::dvec3> points;
+  for (int i = 0; i < 500; ++i) points.push_back({between(-8.6, 8.6), between(0, 11.2), between(-32, 10)});
+  for (int i = 0; i < 100; ++i) points.push_back({between(-3, 3), between(11, 14.5), between(-32, 10)});
+  const double near = 1e-3;
+  for (int i = 0; i < 60; ++i) {
+    const double x = between(-8.6, 8.6), y = between(0, 11), z = between(-32, 10);
+    for (double side : {-8.6 + near, 8.6 - near})
+      points.insert(points.end(),
+                    {{side, near, z}, {side, 11.3 - near, z}, {side, y, -32 + near}, {side, y, 10 - near}});
+    points.insert(points.end(), {{x, near, -32 + near}, {x, 11.3 - near, -32 + near}, {x, near, 10 - near}});
+  }
+  int lit = 0;
+  for (glm::dvec3 point : points) {
+    const bool blocked = is_blocked(scene.geometry, point, point + 100.0 * towards);
+    lit += !blocked;
+    if (passes_a_window_of_the_nave(towards, point)) continue;
+    EXPECT_TRUE(blocked) << "light leaks to " << point.x << " " << point.y << " " << point.z;
+  }
+  EXPECT_GT(lit, 15) << "the windows let light in";
+}
+
+TEST(Nave, HasALowSunAheadOfACameraThatDoesNotSeeIt) {
+  const Scene scene = find_builtin("nave")->make();
+  const Light& light = scene.lights[0];
+  ASSERT_TRUE(is_sun(light));
+  EXPECT_GT(light.towards.x, 0.5);
+  EXPECT_LT(light.towards.z, -0.1);
+  EXPECT_TRUE(light.towards.y > 0.3 && light.towards.y < 0.5);
+  const glm::dvec3 eye = scene.cameras[0].eye;
+  EXPECT_TRUE(std::abs(eye.x) < 4.5 && eye.y > 0.0 && eye.y < 11.0 && eye.z > -32.0 && eye.z < 10.0);
+  EXPECT_FALSE(scene.medium.top);
 }
 
 TEST(Window, LightIsOutsideAndTheCameraInside) {

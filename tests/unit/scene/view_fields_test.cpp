@@ -216,7 +216,7 @@ TEST(Fields, OfALampAndOfASunExcludeOneAnother) {
 
 TEST(Fields, OfASunKeepItsDirectionWhateverItsLength) {
   for (double length : {1e-300, 1e-3, 1.0, 7.0, 1e300}) {
-    Light sun = {.kind = LightKind::sun};
+    Light sun = scene::sun("", {0, 1, 0}, glm::vec3(1.0f));
     ASSERT_FALSE(field<Light>("sun").set(sun, length * glm::dvec3(0.0, 0.6, -0.8)));
     EXPECT_NEAR(glm::distance(sun.towards, glm::dvec3(0.0, 0.6, -0.8)), 0.0, 1e-15) << length;
   }
