@@ -271,7 +271,7 @@ const FieldInfo& sun_angles() {
       .group = "sun",
       .name = "sun-angles",
       .kind = angles,
-      .placeholder = "AZIMUTH,ELEVATION",
+      .placeholder = "AZ,EL",
       .label = "",
       .meaning = "the same by its azimuth, from +Z towards +X, and its elevation above the horizon",
       .unit = "degrees",

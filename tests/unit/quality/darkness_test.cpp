@@ -1,0 +1,63 @@
+#include "quality/darkness.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scene/builtin.h"
+
+namespace airlight::quality {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* k_unknown = "whatever is seen lies in shadow, or neither reflects nor scatters";
+
+/// An eye 5 m from a unit sphere.
+scene::View view_of(const scene::Light& light) {
+  scene::View view;
+  view.camera.eye = {0.0, 0.0, 5.0};
+  view.lights = {light};
+  return view;
+}
+
+const scene::Geometry& sphere() {
+  static const scene::Geometry geometry = scene::find_builtin("sphere")->make().geometry;
+  return geometry;
+}
+
+TEST(WhyBlack, TellsOfASunWithoutIrradiance) {
+  EXPECT_EQ(why_black(sphere(), view_of(scene::sun("", {0, 1, 0}, glm::vec3(0.0f)))),
+            "the light's irradiance is 0");
+}
+
+TEST(WhyBlack, ASunIsDimmedByALayerAboveTheEyeAlone) {
+  scene::View view = view_of(scene::sun("", {0, 1, 0}, glm::vec3(1.0f)));
+  view.medium.sigma_a = glm::vec3(1e3f);
+  EXPECT_EQ(why_black(sphere(), view), k_unknown) << "its own path has no length";
+  view.medium.top = 7.0;
+  EXPECT_THAT(why_black(sphere(), view), HasSubstr("is shorter than 7 m in the medium"));
+  view.medium.top = -7.0;
+  EXPECT_EQ(why_black(sphere(), view), k_unknown) << "the eye is above it";
+}
+
+TEST(WhyBlack, ALampIsDimmedByWhatALayerHoldsOfThePath) {
+  scene::View view = view_of(scene::point_light("", {0, 0, 105}, glm::vec3(1.0f)));
+  view.medium.sigma_a = glm::vec3(10.0f);
+  EXPECT_THAT(why_black(sphere(), view), HasSubstr("is shorter than 100 m in the medium"));
+  view.medium.top = 20.0;
+  EXPECT_THAT(why_black(sphere(), view), HasSubstr("is shorter than 40 m in the medium"));
+  view.medium.top = 0.0;
+  EXPECT_EQ(why_black(sphere(), view), k_unknown);
+}
+
+TEST(WhyBlack, TellsOfAClosedPartThatHoldsTheEyeUnderASun) {
+  for (glm::dvec3 towards : {glm::dvec3(0, 1, 0), glm::dvec3(1, -2, 3), glm::dvec3(-1, 0, 0)}) {
+    scene::View view = view_of(scene::sun("", towards, glm::vec3(1.0f)));
+    EXPECT_EQ(why_black(sphere(), view), k_unknown);
+    view.camera.eye = {0.1, 0.2, 0.3};
+    EXPECT_THAT(why_black(sphere(), view), HasSubstr("the eye is inside a closed part"));
+  }
+}
+
+}  // namespace
+}  // namespace airlight::quality
