@@ -4,18 +4,19 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include "reference/fog_quadrature.h"
 #include "reference/hierarchy.h"
 #include "reference/parallel.h"
 #include "reference/reference.h"
+#include "reference/run_integrals.h"
 #include "reference/shadow_intervals.h"
 #include "reference/state.h"
 
 // The airlight without sampling: which part of each view ray is lit follows from the triangles
-// (shadow_intervals.h), and lit runs are integrated by Gauss–Legendre quadrature (fog_quadrature.h).
+// (shadow_intervals.h), and lit runs are integrated by Gauss–Legendre quadrature (fog_quadrature.h), a sun's
+// in closed form (sun_fog.h).
 //
 // Neighbouring rays share most of their occluders. So the rays of a tile of pixels look for them together:
 // one descent of the hierarchy lists what reaches into the space between the light and the rays, and each ray
@@ -31,7 +32,7 @@ constexpr int k_tile = 8;
 /// memory.
 constexpr std::size_t k_most_occluders = 65536;
 /// How far off a pixel may be, relative to itself: the quadrature, and rounding to single precision.
-constexpr double k_error = FogQuadrature::k_error + 6e-8;
+constexpr double k_rounding = 6e-8;
 
 /// Pixels of the image: [`from`, `to`).
 struct Tile {
@@ -40,10 +41,11 @@ struct Tile {
 
 /// Cuts a region to the convex hull of a light and a cone of view rays: it is bounded by those sides of the
 /// cone that have the light inside, and by the planes through eye and light that touch the cone.
-/// @param eye   relative to the light [m], the cone's apex
+/// @param eye   the cone's apex [m]
+/// @param light as seen from the eye, at any distance
 /// @param edges of the cone, in their order around it
-void cut_to_hull(const glm::dvec3& eye, const std::array<glm::dvec3, 4>& edges, Region& region) {
-  const glm::dvec3 light = -eye;  // as seen from the eye
+void cut_to_hull(const glm::dvec3& eye, const glm::dvec3& light, const std::array<glm::dvec3, 4>& edges,
+                 Region& region) {
   const glm::dvec3 middle = edges[0] + edges[1] + edges[2] + edges[3];
   for (std::size_t i = 0; i < 4; ++i) {
     const glm::dvec3 side = glm::cross(edges[i], edges[(i + 1) % 4]);
@@ -81,18 +83,21 @@ struct Sums {
 }  // namespace
 
 /// Integrates the view rays of tiles. Keeps its memory from tile to tile.
+template <class Ray>
 class Reference::TileIntegrator {
  public:
   TileIntegrator(const State& state, const Hierarchy& hierarchy, int refinement, AirlightImage& image)
-      : state_(state), hierarchy_(hierarchy), refinement_(refinement), image_(image) {
-    if (state.light_texture) texture_.emplace(*state.light_texture);
-  }
+      : state_(state),
+        hierarchy_(hierarchy),
+        image_(image),
+        integrals_(state.run_integrals(refinement)),
+        occluders_(state.sun) {}
 
   Sums integrate(const Tile& tile) {
     tile_ = tile;
     rays_.clear();
     for (int y = tile.from.y; y < tile.to.y; ++y) {
-      for (int x = tile.from.x; x < tile.to.x; ++x) rays_.push_back(state_.view_ray(x, y));
+      for (int x = tile.from.x; x < tile.to.x; ++x) rays_.push_back(state_.ray<Ray>(x, y));
     }
     sums_ = {};
     integrate_part(tile);
@@ -100,7 +105,7 @@ class Reference::TileIntegrator {
   }
 
  private:
-  const ViewRay& ray(int x, int y) const {
+  const Ray& ray(int x, int y) const {
     return rays_[static_cast<std::size_t>((y - tile_.from.y) * (tile_.to.x - tile_.from.x) + x -
                                           tile_.from.x)];
   }
@@ -119,25 +124,29 @@ class Reference::TileIntegrator {
     }
     occluders_.clear();
     for (const std::uint32_t triangle : found_)
-      occluders_.add(state_.triangles.around(state_.light.position, triangle));
+      occluders_.add(state_.triangles.around(state_.origin, triangle));
     for (int y = part.from.y; y < part.to.y; ++y) {
       for (int x = part.from.x; x < part.to.x; ++x) integrate_pixel(x, y);
     }
   }
 
+  static glm::dvec3 end(const ViewRay& ray, const glm::dvec3& eye) { return ray.end(eye); }
+  static glm::dvec3 end(const SunRay& ray, const glm::dvec3&) { return ray.end(); }
+
   /// All that can cast a shadow on the rays of these pixels.
   Region region_of(const Tile& part) const {
-    Region region{.box = {glm::min(state_.eye, 0.0), glm::max(state_.eye, 0.0)}, .half_spaces = {}};
+    const glm::dvec3 light = state_.sun ? far_end(glm::dvec3(0.0), *state_.sun) : glm::dvec3(0.0);
+    Region region{.box = {glm::min(state_.eye, light), glm::max(state_.eye, light)}, .half_spaces = {}};
     for (int y = part.from.y; y < part.to.y; ++y) {
       for (int x = part.from.x; x < part.to.x; ++x) {
-        const glm::dvec3 end = ray(x, y).end(state_.eye);
-        region.box.lower = glm::min(region.box.lower, end);
-        region.box.upper = glm::max(region.box.upper, end);
+        const glm::dvec3 last = end(ray(x, y), state_.eye);
+        region.box.lower = glm::min(region.box.lower, last);
+        region.box.upper = glm::max(region.box.upper, last);
       }
     }
-    // Half a pixel more than the pixels themselves: a ray nearly at the light is moved (view_ray.h).
+    // Half a pixel more than the pixels themselves: a ray nearly at the light is moved (light_plane.h).
     const glm::dvec2 from = glm::dvec2(part.from) - 0.5, to = glm::dvec2(part.to) + 0.5;
-    cut_to_hull(state_.eye,
+    cut_to_hull(state_.eye, state_.sun.value_or(-state_.eye),
                 {state_.direction(from), state_.direction({to.x, from.y}), state_.direction(to),
                  state_.direction({from.x, to.y})},
                 region);
@@ -145,20 +154,11 @@ class Reference::TileIntegrator {
   }
 
   void integrate_pixel(int x, int y) {
-    const ViewRay& view_ray = ray(x, y);
+    const Ray& view_ray = ray(x, y);
     shadows_.trace(view_ray, occluders_);
-    if (texture_) texture_->aim(view_ray);
-    const LightAlongRay* light = texture_ ? &*texture_ : nullptr;
-    const glm::dvec3 scale = state_.airlight_scale(view_ray);
-    const auto [integral] =
-        integrate_channels<1>(view_ray, state_.view.medium, scale, [&](FogQuadrature& fog) {
-          fog.refine(refinement_);
-          glm::dvec3 lit(0.0);
-          for (const ShadowIntervals::Run& run : shadows_.lit_runs())
-            lit += fog.integral(run.psi_from, run.psi_to, light);
-          return std::array{lit};
-        });
-    const glm::dvec3 radiance = scale * integral;  // docs/method.md (*)
+    const auto [radiance] = integrals_.template radiances<1>(view_ray, [&](const auto& add) {
+      for (const ShadowIntervals::Run& run : shadows_.lit_runs()) add(0, run.from, run.to, 1.0);
+    });
     image_.radiance[state_.index(x, y)] = glm::vec3(radiance);
     sums_.radiance += radiance.r + radiance.g + radiance.b;
     sums_.squared_radiance += glm::dot(radiance, radiance);
@@ -168,11 +168,10 @@ class Reference::TileIntegrator {
 
   const State& state_;
   const Hierarchy& hierarchy_;
-  int refinement_;
   AirlightImage& image_;
-  std::optional<LightAlongRay> texture_;
+  RunIntegrals integrals_;
   Tile tile_{};
-  std::vector<ViewRay> rays_;  ///< of the tile's pixels, row by row
+  std::vector<Ray> rays_;  ///< of the tile's pixels, row by row
   std::vector<std::uint32_t> found_;
   Occluders occluders_;
   ShadowIntervals shadows_;
@@ -180,16 +179,21 @@ class Reference::TileIntegrator {
 };
 
 AirlightImage Reference::exact(int refinement, const Progress& progress) const {
+  return state_->sun ? exact_along<SunRay>(refinement, progress) : exact_along<ViewRay>(refinement, progress);
+}
+
+template <class Ray>
+AirlightImage Reference::exact_along(int refinement, const Progress& progress) const {
   const State& state = *state_;
   AirlightImage image;
   image.radiance.resize(state.pixels());
   const glm::ivec2 tiles = (state.view.size + k_tile - 1) / k_tile;
   std::vector<Sums> sums(static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y));
   const auto start = std::chrono::steady_clock::now();
-  const Hierarchy hierarchy(state.triangles, state.light.position);
+  const Hierarchy hierarchy(state.triangles, state.origin);
 
   const auto make_worker = [&] {
-    return [&, integrator = TileIntegrator(state, hierarchy, refinement, image)](int tile) mutable {
+    return [&, integrator = TileIntegrator<Ray>(state, hierarchy, refinement, image)](int tile) mutable {
       const glm::ivec2 from = k_tile * glm::ivec2(tile % tiles.x, tile / tiles.x);
       sums[static_cast<std::size_t>(tile)] =
           integrator.integrate({from, glm::min(from + k_tile, state.view.size)});
@@ -202,8 +206,8 @@ AirlightImage Reference::exact(int refinement, const Progress& progress) const {
   for (const Sums& of_tile : sums) total += of_tile;
   const auto pixels = static_cast<double>(state.pixels());
   if (total.radiance > 0.0)
-    image.bound =
-        k_error * std::sqrt(total.squared_radiance / (3.0 * pixels)) / (total.radiance / (3.0 * pixels));
+    image.bound = (k_rounding + (state.sun ? 0.0 : FogQuadrature::k_error)) *
+                  std::sqrt(total.squared_radiance / (3.0 * pixels)) / (total.radiance / (3.0 * pixels));
   image.shadows_per_pixel = static_cast<double>(total.shadows) / pixels;
   image.lit_runs_per_pixel = static_cast<double>(total.lit_runs) / pixels;
   return image;

@@ -43,7 +43,7 @@ class Fan {
     sine_ = std::sin(advance);
   }
 
-  const HalfAngles& half_angles() const { return half_; }
+  const HalfAngles& places() const { return half_; }
 
   /// Moves on to the next `LightRays::k_count` samples. Past the last sample of a view ray the angles mean
   /// nothing.

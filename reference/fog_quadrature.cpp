@@ -55,9 +55,9 @@ FogQuadrature::FogQuadrature(const ViewRay& ray, double sigma_t, const scene::Me
              ? static_cast<double>(medium.g)
              : 0.0),
       depth_scale_(sigma_t * ray.D * ray.sin_alpha),
-      depth_offset_(sigma_t * ray.D * ray.cos_alpha),
+      depth_offset_(sigma_t * (ray.D * ray.cos_alpha - ray.from)),
       deepest_(sigma_t * ray.D + k_depth_range),
-      smallest_psi_(k_psi_range * ray.psi_eye) {}
+      smallest_psi_(k_psi_range * ray.psi_start) {}
 
 double FogQuadrature::integrand(double psi) const {
   const double optical_depth = depth_offset_ + depth_scale_ / std::tan(0.5 * psi);  // view_ray.h (3)

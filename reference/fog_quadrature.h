@@ -9,6 +9,12 @@
 
 namespace airlight::reference {
 
+/// σ_s I / (D sin α): what the integral over φ is multiplied with, RGB. A light's texture belongs under the
+/// integral.
+inline glm::dvec3 airlight_scale(const ViewRay& ray, const scene::Light& light, const scene::Medium& medium) {
+  return glm::dvec3(medium.sigma_s) * glm::dvec3(light.intensity) / (ray.D * ray.sin_alpha);
+}
+
 /// ∫ e^{−σ(t+r)} p(α+φ) dφ along one view ray, by Gauss–Legendre quadrature in double precision.
 class FogQuadrature {
  public:

@@ -100,11 +100,11 @@ struct Hierarchy::Tree {
   Tree& operator=(const Tree&) = delete;
 };
 
-Hierarchy::Hierarchy(const Triangles& triangles, const glm::dvec3& light) : tree_(std::make_unique<Tree>()) {
+Hierarchy::Hierarchy(const Triangles& triangles, const glm::dvec3& origin) : tree_(std::make_unique<Tree>()) {
   if (triangles.count() == 0) return;
   std::vector<RTCBuildPrimitive> primitives(triangles.count());
   for (std::uint32_t i = 0; i < triangles.count(); ++i)
-    primitives[i] = primitive(triangles.around(light, i), i);
+    primitives[i] = primitive(triangles.around(origin, i), i);
 
   RTCBuildArguments build = rtcDefaultBuildArguments();
   build.maxBranchingFactor = k_children;

@@ -12,7 +12,7 @@
 
 namespace airlight::reference {
 
-/// An axis-aligned box [m].
+/// An axis-aligned box [m], endless where it is infinite.
 struct Bounds {
   glm::dvec3 lower, upper;
 };
@@ -33,19 +33,19 @@ struct Region {
   void cut(const HalfSpace& by) { half_spaces[count++] = by; }
 };
 
-/// A bounding volume hierarchy over triangles, built by Embree, in the axes of the world around the light.
+/// A bounding volume hierarchy over triangles, built by Embree, in the axes of the world around an origin.
 class Hierarchy {
  public:
   /// @param triangles kept by reference
-  /// @param light     world space [m]
+  /// @param origin    world space [m]
   /// @throws scene::Error (driver) when Embree fails
-  Hierarchy(const Triangles& triangles, const glm::dvec3& light);
+  Hierarchy(const Triangles& triangles, const glm::dvec3& origin);
   ~Hierarchy();
   Hierarchy(Hierarchy&&) noexcept;
   Hierarchy& operator=(Hierarchy&&) noexcept;
 
   /// Writes the numbers of the triangles that may reach into the region: all that do, and some that do not.
-  /// @param region relative to the light
+  /// @param region relative to the origin
   void find(const Region& region, std::vector<std::uint32_t>& found) const;
 
  private:

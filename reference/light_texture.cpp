@@ -59,7 +59,7 @@ void LightAlongRay::aim(const ViewRay& ray) {
   cuts_.clear();
   const auto cut = [&](double psi) {
     if (psi < 0.0) psi += 2 * pi;
-    if (psi > ray.psi_end && psi < ray.psi_eye) cuts_.push_back(psi);
+    if (psi > ray.psi_end && psi < ray.psi_start) cuts_.push_back(psi);
   };
   // The sine of the latitude is highest · cos(ψ − nearest): nearest to one pole there, to the other half a
   // turn on.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <chrono>
 #include <cstdint>
@@ -12,7 +13,9 @@
 #include "reference/parallel.h"
 #include "reference/phase.h"
 #include "reference/reference.h"
+#include "reference/shadowable.h"
 #include "reference/state.h"
+#include "reference/sun_steps.h"
 #include "scene/error.h"
 
 // The airlight by brute force: a shadow ray at every step along every view ray.
@@ -20,7 +23,8 @@
 // Based on: Chris Wyman, Voxelized Shadow Volumes, HPG 2011, section 5, whose ray-traced comparison this is.
 // It deviates in the extinction of the light's own path, which is included, and in steps that are uniform in
 // φ instead of in t. And steps that a narrow lobe of the phase function is not smooth over, which no sum of
-// values at their middles would see, count with their integral: what is sampled is the visibility alone.
+// values at their middles would see, count with their integral: what is sampled is the visibility alone. So
+// it is under a sun, where the integral is known in closed form.
 
 namespace airlight::reference {
 
@@ -104,6 +108,60 @@ AirlightImage Reference::march(int samples, RayMode mode, const Progress& progre
     throw scene::Error(scene::ExitCode::usage, "reference samples",
                        fmt::format("{} is not at least 1", samples));
   }
+  return state_->sun ? march_to_sun(samples, mode, progress) : march_to_point(samples, mode, progress);
+}
+
+AirlightImage Reference::march_to_sun(int samples, RayMode mode, const Progress& progress) const {
+  const State& state = *state_;
+  AirlightImage image;
+  image.radiance.resize(state.pixels());
+  std::atomic<std::uint64_t> marched{0};  // view rays
+  const auto start = std::chrono::steady_clock::now();
+
+  const auto make_worker = [&] {
+    return [&, shadowable = Shadowable(state.box, state.camera.eye, state.sun),
+            integrals = state.run_integrals()](int y) mutable {
+      SunwardRays rays;
+      for (int x = 0; x < state.view.size.x; ++x) {
+        const SunRay ray = state.ray<SunRay>(x, y);
+        const SunRay part = shadowable.part_of(ray);
+        const bool is_empty = !(part.from < part.to);
+        const auto [radiance] = integrals.radiances<1>(ray, [&](const auto& add) {
+          Shadowable::for_each_rest(ray, part, [&](double from, double to) { add(0, from, to, 1.0); });
+          if (is_empty) return;
+          SunSteps steps(part, samples, 0.5);
+          int lit_from = 0, step = 0;  // steps from the one to the other are lit
+          const auto add_lit = [&] {
+            if (lit_from < step)
+              add(0, part.t(static_cast<double>(lit_from) / samples),
+                  part.t(static_cast<double>(step) / samples), 1.0);
+          };
+          while (step < samples) {
+            aim(part, steps.places(), rays);
+            const int count = std::min(SunwardRays::k_count, samples - step);
+            const std::uint32_t lit = state.visibility.lit(rays, count, mode);
+            for (int i = 0; i < count; ++i, ++step) {
+              if (lit >> i & 1u) continue;
+              add_lit();
+              lit_from = step + 1;
+            }
+            steps.advance();
+          }
+          add_lit();
+        });
+        image.radiance[state.index(x, y)] = glm::vec3(radiance);
+        marched += is_empty ? 0 : 1;
+      }
+    };
+  };
+  parallel(state.view.size.y, make_worker, progress);
+
+  image.rays = marched * static_cast<std::uint64_t>(samples);
+  image.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return image;
+}
+
+AirlightImage Reference::march_to_point(int samples, RayMode mode, const Progress& progress) const {
   const State& state = *state_;
   const scene::Medium& medium = state.view.medium;
   const glm::dvec3 sigma_t = glm::dvec3(medium.sigma_s) + glm::dvec3(medium.sigma_a);
@@ -118,7 +176,7 @@ AirlightImage Reference::march(int samples, RayMode mode, const Progress& progre
     return [&](int y) {
       LightRays rays;
       for (int x = 0; x < state.view.size.x; ++x) {
-        const ViewRay ray = state.view_ray(x, y);
+        const ViewRay ray = state.ray<ViewRay>(x, y);
         const double step = ray.phi_d / samples;
         const std::array quadrature = {FogQuadrature(ray, sigma_t.r, medium),
                                        FogQuadrature(ray, sigma_t.g, medium),
@@ -126,23 +184,22 @@ AirlightImage Reference::march(int samples, RayMode mode, const Progress& progre
         glm::dvec3 sum(0.0);
         Fan fan(ray, samples, 0.5);
         for (int first = 0; first < samples; first += LightRays::k_count) {
-          aim(ray, fan.half_angles(), rays);
+          aim(ray, fan.places(), rays);
           const int count = std::min(LightRays::k_count, samples - first);
           const std::uint32_t lit = state.visibility.lit(rays, count, mode);
           if (lit != 0) {
             LightColours colours;
             if (state.light_texture) colours = look_up(*state.light_texture, rays, lit);
             for (int channel = 0; channel < (grey ? 1 : 3); ++channel) {
-              sum[channel] +=
-                  sum_lit(ray, fan.half_angles(), lit, sigma_t[channel], medium, quadrature[channel], step,
-                          state.light_texture ? colours.values[channel] : nullptr);
+              sum[channel] += sum_lit(ray, fan.places(), lit, sigma_t[channel], medium, quadrature[channel],
+                                      step, state.light_texture ? colours.values[channel] : nullptr);
             }
           }
           fan.advance();
         }
         if (grey) sum = glm::dvec3(sum.r);
         // docs/method.md (*), the integral as a Riemann sum.
-        image.radiance[state.index(x, y)] = glm::vec3(state.airlight_scale(ray) * step * sum);
+        image.radiance[state.index(x, y)] = glm::vec3(airlight_scale(ray, state.light, medium) * step * sum);
       }
     };
   };

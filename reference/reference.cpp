@@ -11,13 +11,19 @@ glm::dvec3 Reference::State::direction(const glm::dvec2& point) const {
   return glm::normalize(camera.forward + across * camera.right + upward * camera.up);
 }
 
-ViewRay Reference::State::view_ray(int x, int y) const {
+template <>
+ViewRay Reference::State::ray<ViewRay>(int x, int y) const {
   const glm::dvec3 direction = pixel_direction(x, y);
-  return make_view_ray(eye, direction, camera.right, visibility.first_hit(direction).distance, quarter_pixel);
+  return make_view_ray(eye, direction, camera.right, visibility.first_hit(direction).distance, quarter_pixel,
+                       top);
 }
 
-glm::dvec3 Reference::State::airlight_scale(const ViewRay& ray) const {
-  return glm::dvec3(view.medium.sigma_s) * glm::dvec3(light.intensity) / (ray.D * ray.sin_alpha);
+template <>
+SunRay Reference::State::ray<SunRay>(int x, int y) const {
+  const glm::dvec3 direction = pixel_direction(x, y);
+  const std::optional<double> eye_y = top ? std::optional(-*top) : std::nullopt;
+  return make_sun_ray(*sun, direction, camera.right, visibility.first_hit(direction).distance, quarter_pixel,
+                      eye_y);
 }
 
 Reference::State::State(const scene::Geometry& geometry, const scene::View& v, std::size_t light_index)
@@ -25,11 +31,15 @@ Reference::State::State(const scene::Geometry& geometry, const scene::View& v, s
       light(view.lights.at(light_index)),
       camera(scene::camera_frame(view.camera, view.size)),
       triangles{geometry.positions, geometry.triangles},
-      visibility(triangles, light.position, camera.eye),
-      eye(camera.eye - light.position),
+      box(scene::bounds(geometry)),
+      sun(scene::is_sun(light) ? std::optional(glm::normalize(light.towards)) : std::nullopt),
+      origin(sun ? camera.eye : light.position),
+      eye(camera.eye - origin),
+      visibility(triangles, origin, camera.eye, sun),
       // The tangent size of a pixel at the image's centre stands for its angle.
       quarter_pixel(0.25 * 2.0 * camera.half_height / view.size.y) {
-  if (light.texture) light_texture.emplace(*light.texture);
+  if (view.medium.top) top = *view.medium.top - origin.y;
+  if (!sun && light.texture) light_texture.emplace(*light.texture);
 }
 
 Reference::Reference(const scene::Geometry& geometry, const scene::View& view, std::size_t light_index) {

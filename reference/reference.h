@@ -40,8 +40,8 @@ using Progress = std::function<void(double fraction)>;  ///< called from the cal
 
 /// Exact visibility by ray casting (Embree), on every core.
 ///
-/// Shares no code with the methods that it judges. Geometry is held relative to the light, so that
-/// coordinates far from the origin cost no precision.
+/// Shares no code with the methods that it judges. Geometry is held relative to the light, or to the eye
+/// under a sun, so that coordinates far from the origin cost no precision.
 class Reference {
  public:
   /// Builds the acceleration structure. The geometry is copied.
@@ -55,21 +55,30 @@ class Reference {
   SurfaceImage surfaces(const Progress& progress = {}) const;
 
   /// `reference-march`: the Riemann sum over `samples` shadow rays per view ray, at the centres of `samples`
-  /// equal steps of φ ∈ [0, φ_d]: what Wyman (2011, Fig. 16) times voxelized shadow volumes against.
+  /// equal steps of φ ∈ [0, φ_d]: what Wyman (2011, Fig. 16) times voxelized shadow volumes against. Under a
+  /// sun the steps are those of t, as far as the scene can cast shadows, and what they light is integrated in
+  /// closed form.
   AirlightImage march(int samples, RayMode mode, const Progress& progress = {}) const;
 
-  /// `reference-sampled`: `samples` uniform steps in φ find the visibility changes, each is bisected to 1e-6
-  /// of the range, and lit runs are integrated by Gauss–Legendre quadrature in double precision.
+  /// `reference-sampled`: `samples` uniform steps in φ (under a sun as `march`) find the visibility changes,
+  /// each is bisected to 1e-6 of the range, and lit runs are integrated as by `exact`.
   AirlightImage sampled(int samples, const Progress& progress = {}) const;
 
-  /// `reference`: the truth. The union of the intervals of φ that the scene's triangles hide, in double
-  /// precision, and the same quadrature: nothing is sampled.
+  /// `reference`: the truth. The union of the intervals that the scene's triangles hide, in double precision,
+  /// integrated by Gauss–Legendre quadrature, or under a sun in closed form: nothing is sampled.
   /// @param refinement parts that each panel of the quadrature is cut into: tests its bound
   AirlightImage exact(int refinement = 1, const Progress& progress = {}) const;
 
  private:
   struct State;
+  template <class Ray>
   class TileIntegrator;
+  template <class Ray>
+  AirlightImage exact_along(int refinement, const Progress& progress) const;
+  template <class Ray>
+  AirlightImage sampled_along(int samples, const Progress& progress) const;
+  AirlightImage march_to_sun(int samples, RayMode mode, const Progress& progress) const;
+  AirlightImage march_to_point(int samples, RayMode mode, const Progress& progress) const;
   std::unique_ptr<State> state_;
 };
 

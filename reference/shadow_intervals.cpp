@@ -3,14 +3,46 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace airlight::reference {
 
 namespace {
 
-/// Lit runs shorter than this, relative to the ray's range of φ, are rounding: where a surface ends the ray,
-/// its own shadow begins there to the last digits.
+/// Lit runs shorter than this, relative to the ray's range of φ or to t, are rounding: where a surface ends
+/// the ray, its own shadow begins there to the last digits.
 constexpr double k_shortest = 1e-12;
+
+/// The segment in which a half-plane's plane cuts a triangle, its ends by growing y: x along the view ray, y
+/// across it, away from the light.
+struct Segment {
+  glm::dvec2 p, q;
+
+  double x_at(double y) const { return p.x + (y - p.y) / (q.y - p.y) * (q.x - p.x); }
+};
+
+/// Where a segment casts its shadow on the view ray, between any two u; none where it casts none.
+struct Shadow {
+  double a, b;
+};
+
+// Only what lies between light and ray casts a shadow on it.
+
+std::optional<Shadow> shadow(const ViewRay& ray, const Segment& s) {
+  const double h = ray.D * ray.sin_alpha;
+  if (s.q.y <= 0.0 || s.p.y >= h) return {};
+  const double u_q = s.q.y > h ? s.x_at(h) / h : s.q.x / s.q.y;
+  const double u_p =
+      s.p.y > 0.0 ? s.p.x / s.p.y : std::copysign(std::numeric_limits<double>::infinity(), s.x_at(0.0));
+  return Shadow{u_p, u_q};
+}
+
+std::optional<Shadow> shadow(const SunRay& ray, const Segment& s) {
+  if (s.p.y >= 0.0) return {};
+  const double cotangent = ray.cos_alpha / ray.sin_alpha;
+  const double t_q = s.q.y > 0.0 ? s.x_at(0.0) : s.q.x + s.q.y * cotangent;
+  return Shadow{s.p.x + s.p.y * cotangent, t_q};
+}
 
 }  // namespace
 
@@ -25,7 +57,7 @@ void Occluders::clear() {
 }
 
 void Occluders::add(const Corners& corners) {
-  if (is_edge_on(corners)) return;
+  if (sun_ ? is_edge_on_to_sun(corners, *sun_) : is_edge_on(corners)) return;
   corners_.push_back(corners);
   double largest = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -61,7 +93,8 @@ void Occluders::find_crossing(const glm::dvec3& n, std::vector<std::uint32_t>& c
   crossing.resize(found);
 }
 
-void ShadowIntervals::add_shadow(const ViewRay& ray, double u_eye, double u_end, const Corners& corners) {
+template <class Ray>
+void ShadowIntervals::add_shadow(const Ray& ray, const Interval& range, const Corners& corners) {
   const glm::dvec3 n = glm::cross(ray.w, ray.q);
   const double side[3] = {glm::dot(n, corners[0]), glm::dot(n, corners[1]), glm::dot(n, corners[2])};
   const bool positive[3] = {side[0] >= 0.0, side[1] >= 0.0, side[2] >= 0.0};
@@ -75,42 +108,57 @@ void ShadowIntervals::add_shadow(const ViewRay& ray, double u_eye, double u_end,
         corners[below] + side[below] / (side[below] - side[above]) * (corners[above] - corners[below]);
     return glm::dvec2(glm::dot(ray.w, point), glm::dot(ray.q, point));
   };
-  glm::dvec2 p = cut((alone + 1) % 3), q = cut((alone + 2) % 3);
-  if (p.y > q.y) std::swap(p, q);
+  Segment segment{cut((alone + 1) % 3), cut((alone + 2) % 3)};
+  if (segment.p.y > segment.q.y) std::swap(segment.p, segment.q);
 
-  // Only what lies between light and ray casts a shadow on it.
-  const double h = ray.D * ray.sin_alpha;
-  if (q.y <= 0.0 || p.y >= h) return;
-  const auto x_at = [&](double y) { return p.x + (y - p.y) / (q.y - p.y) * (q.x - p.x); };
-  const double u_q = q.y > h ? x_at(h) / h : q.x / q.y;
-  const double u_p =
-      p.y > 0.0 ? p.x / p.y : std::copysign(std::numeric_limits<double>::infinity(), x_at(0.0));
-  const double from = std::max(std::min(u_p, u_q), u_eye), to = std::min(std::max(u_p, u_q), u_end);
+  const std::optional<Shadow> cast = shadow(ray, segment);
+  if (!cast) return;
+  const double from = std::max(std::min(cast->a, cast->b), range.from),
+               to = std::min(std::max(cast->a, cast->b), range.to);
   if (from < to) intervals_.push_back({from, to});
 }
 
-void ShadowIntervals::trace(const ViewRay& ray, Occluders& occluders) {
-  const double u_eye = -ray.cos_alpha / ray.sin_alpha;
-  const double u_end =
-      ray.psi_end > 0.0 ? 1.0 / std::tan(ray.psi_end) : std::numeric_limits<double>::infinity();
+template <class Ray>
+void ShadowIntervals::find_shadows(const Ray& ray, const Interval& range, Occluders& occluders) {
   intervals_.clear();
   occluders.find_crossing(glm::cross(ray.w, ray.q), crossing_);
-  for (const std::uint32_t i : crossing_) add_shadow(ray, u_eye, u_end, occluders.corners(i));
+  for (const std::uint32_t i : crossing_) add_shadow(ray, range, occluders.corners(i));
   std::sort(intervals_.begin(), intervals_.end(),
             [](const Interval& a, const Interval& b) { return a.from < b.from; });
+}
 
-  lit_.clear();
-  const auto psi = [](double u) { return std::atan2(1.0, u); };
-  double lit_from = u_eye;
-  const auto add_lit = [&](double psi_to) {
-    const double psi_from = lit_from == u_eye ? ray.psi_eye : psi(lit_from);
-    if (psi_from - psi_to > k_shortest * ray.phi_d) lit_.push_back({psi_from, psi_to});
-  };
+/// Calls f(from, to) with what no shadow covers of the range of u.
+template <class Function>
+void ShadowIntervals::for_each_gap(const Interval& range, const Function& f) const {
+  double lit_from = range.from;
   for (const Interval& shadow : intervals_) {
-    if (shadow.from > lit_from) add_lit(psi(shadow.from));
+    if (shadow.from > lit_from) f(lit_from, shadow.from);
     lit_from = std::max(lit_from, shadow.to);
   }
-  if (lit_from < u_end) add_lit(ray.psi_end);
+  if (lit_from < range.to) f(lit_from, range.to);
+}
+
+void ShadowIntervals::trace(const ViewRay& ray, Occluders& occluders) {
+  const Interval range{
+      (ray.from - ray.D * ray.cos_alpha) / (ray.D * ray.sin_alpha),
+      ray.psi_end > 0.0 ? 1.0 / std::tan(ray.psi_end) : std::numeric_limits<double>::infinity()};
+  find_shadows(ray, range, occluders);
+
+  lit_.clear();
+  for_each_gap(range, [&](double from, double to) {
+    const double psi_from = from == range.from ? ray.psi_start : std::atan2(1.0, from);
+    const double psi_to = to == range.to ? ray.psi_end : std::atan2(1.0, to);
+    if (psi_from - psi_to > k_shortest * ray.phi_d) lit_.push_back({psi_from, psi_to});
+  });
+}
+
+void ShadowIntervals::trace(const SunRay& ray, Occluders& occluders) {
+  const Interval range{ray.from, ray.to};
+  find_shadows(ray, range, occluders);
+  lit_.clear();
+  for_each_gap(range, [&](double from, double to) {
+    if (from < to * (1.0 - k_shortest)) lit_.push_back({from, to});
+  });
 }
 
 }  // namespace airlight::reference

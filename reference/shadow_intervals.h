@@ -2,8 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "reference/sun_ray.h"
 #include "reference/triangles.h"
 #include "reference/view_ray.h"
 
@@ -12,20 +14,24 @@ namespace airlight::reference {
 /// Triangles that may cast a shadow on some view rays, laid out for one pass after another over all of them.
 class Occluders {
  public:
+  /// @param sun unit direction to the light where that is a sun
+  explicit Occluders(std::optional<glm::dvec3> sun = {}) : sun_(sun) {}
+
   void clear();
 
-  /// @param corners relative to the light [m]. A triangle edge-on to the light casts no shadow, and is left
-  /// out.
+  /// @param corners relative to the light [m], or to the eye under a sun. A triangle edge-on to the light
+  /// casts no shadow, and is left out.
   void add(const Corners& corners);
 
   std::size_t count() const { return corners_.size(); }
   const Corners& corners(std::size_t i) const { return corners_[i]; }
 
-  /// Writes the numbers of those that may cross the plane through the light of unit normal `n`: all that do,
+  /// Writes the numbers of those that may cross the plane through the origin of unit normal `n`: all that do,
   /// and few that do not.
   void find_crossing(const glm::dvec3& n, std::vector<std::uint32_t>& crossing);
 
  private:
+  std::optional<glm::dvec3> sun_;
   std::vector<Corners> corners_;
   std::vector<float> x_[3], y_[3], z_[3];  ///< corners in single precision
   std::vector<float> margin_;              ///< how far their distance from a plane may be off [m]
@@ -38,7 +44,7 @@ class Occluders {
 /// one interval of the ray; the union of the intervals of all triangles is the shadow. With x along the ray
 /// and y across, from the light, the ray is the line y = h, and a point (x, y) with 0 < y < h casts its
 /// shadow to the ray's point x h/y. Intervals are kept in u = x/y = cot ψ (view_ray.h): no trigonometry is
-/// needed to find them.
+/// needed to find them. A sun's shadows are cast along its direction, and kept in u = t (sun_ray.h).
 ///
 /// What makes shadows tight: a corner is on one side of the half-plane or on the other, never on it (zero
 /// counts as positive), and an edge's point in the half-plane is computed in the same order of its ends by
@@ -49,10 +55,12 @@ class ShadowIntervals {
   /// Finds what is lit of the view ray.
   /// @param occluders all that can cast a shadow on it
   void trace(const ViewRay& ray, Occluders& occluders);
+  void trace(const SunRay& ray, Occluders& occluders);
 
-  /// A lit interval of the ray, in falling order of ψ.
+  /// A lit interval of the ray, in its order: of falling ψ [rad] of a `ViewRay`, of growing t [m] of a
+  /// `SunRay`.
   struct Run {
-    double psi_from, psi_to;  ///< [rad], from > to
+    double from, to;
   };
   const std::vector<Run>& lit_runs() const { return lit_; }
 
@@ -63,7 +71,12 @@ class ShadowIntervals {
   struct Interval {
     double from, to;  ///< u
   };
-  void add_shadow(const ViewRay& ray, double u_eye, double u_end, const Corners& corners);
+  template <class Ray>
+  void find_shadows(const Ray& ray, const Interval& range, Occluders& occluders);
+  template <class Ray>
+  void add_shadow(const Ray& ray, const Interval& range, const Corners& corners);
+  template <class Function>
+  void for_each_gap(const Interval& range, const Function& f) const;
 
   std::vector<std::uint32_t> crossing_;
   std::vector<Interval> intervals_;

@@ -4,6 +4,8 @@
 
 #include "reference/light_texture.h"
 #include "reference/reference.h"
+#include "reference/run_integrals.h"
+#include "reference/sun_ray.h"
 #include "reference/triangles.h"
 #include "reference/view_ray.h"
 #include "reference/visibility.h"
@@ -11,14 +13,18 @@
 
 namespace airlight::reference {
 
-/// What `Reference` keeps: the view, and the triangles around its light.
+/// What `Reference` keeps: the view, and the triangles around its light, or around the eye under a sun.
 struct Reference::State {
   scene::View view;
   scene::Light light;
   scene::CameraFrame camera;
   Triangles triangles;
+  scene::Box box;                            ///< of the triangles, world space [m]
+  std::optional<glm::dvec3> sun;             ///< unit direction to the light where that is a sun
+  glm::dvec3 origin;                         ///< the light, or the eye under a sun, world space [m]
+  glm::dvec3 eye;                            ///< relative to the origin [m]
+  std::optional<double> top;                 ///< of the medium, height over the origin [m]
   Visibility visibility;                     ///< of `triangles`
-  glm::dvec3 eye;                            ///< relative to the light [m]
   double quarter_pixel;                      ///< the smallest α [rad]
   std::optional<LightLookup> light_texture;  ///< where the light has one
 
@@ -28,17 +34,23 @@ struct Reference::State {
   glm::dvec3 direction(const glm::dvec2& point) const;
   glm::dvec3 pixel_direction(int x, int y) const { return direction(glm::dvec2(x, y) + 0.5); }
 
-  /// The view ray of a pixel, up to its first surface.
-  ViewRay view_ray(int x, int y) const;
+  /// The view ray of a pixel, up to its first surface: a `ViewRay` of a point light, a `SunRay` of a sun.
+  template <class Ray>
+  Ray ray(int x, int y) const;
 
-  /// σ_s I / (D sin α): what the integral over φ is multiplied with, RGB. A light's texture belongs under the
-  /// integral.
-  glm::dvec3 airlight_scale(const ViewRay& ray) const;
+  RunIntegrals run_integrals(int refinement = 1) const {
+    return {light, view.medium, light_texture ? &*light_texture : nullptr, refinement};
+  }
 
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(view.size.x) + static_cast<std::size_t>(x);
   }
   std::size_t pixels() const { return index(0, view.size.y); }
 };
+
+template <>
+ViewRay Reference::State::ray<ViewRay>(int x, int y) const;
+template <>
+SunRay Reference::State::ray<SunRay>(int x, int y) const;
 
 }  // namespace airlight::reference

@@ -33,6 +33,14 @@ inline bool is_edge_on(const Corners& c) {
   return std::abs(volume) <= 1e-15 * distance2 * std::sqrt(edge2);
 }
 
+/// The same of a sun in that unit direction: whether a triangle lies along its light, to rounding.
+inline bool is_edge_on_to_sun(const Corners& c, const glm::dvec3& sun) {
+  const glm::dvec3 ab = c[1] - c[0], ac = c[2] - c[0];
+  const double distance2 = std::max({glm::dot(c[0], c[0]), glm::dot(c[1], c[1]), glm::dot(c[2], c[2])});
+  const double edge2 = std::max(glm::dot(ab, ab), glm::dot(ac, ac));
+  return std::abs(glm::dot(sun, glm::cross(ab, ac))) <= 1e-15 * std::sqrt(distance2 * edge2);
+}
+
 /// The surfaces of a scene, before any rounding.
 struct Triangles {
   std::vector<glm::vec3> positions;  ///< world space [m]
@@ -60,6 +68,18 @@ struct Triangles {
           glm::any(glm::lessThan(upper, glm::dvec3(-slack))))
         continue;
       if (!is_edge_on(c)) continue;
+      flags.resize(count());
+      flags[i] = true;
+    }
+    return flags;
+  }
+
+  /// One flag a triangle: whether it lies along a sun's light. Empty where none does.
+  /// @param origin from where corners are known, world space [m]
+  std::vector<bool> along(const glm::dvec3& sun, const glm::dvec3& origin) const {
+    std::vector<bool> flags;
+    for (std::uint32_t i = 0; i < count(); ++i) {
+      if (!is_edge_on_to_sun(around(origin, i), sun)) continue;
       flags.resize(count());
       flags[i] = true;
     }

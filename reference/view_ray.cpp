@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 // With the light at the origin and l the unit direction from the eye to the light, the eye is −D l and the
 // points of the view ray are P(t) = −D l + t w. The part of −D l across w is −D (l − w cos α) = D sin α q
@@ -15,55 +13,28 @@
 
 namespace airlight::reference {
 
-namespace {
-
-/// Below this sine, the direction across l is rounding noise.
-constexpr double k_parallel = 1e-12;
-
-}  // namespace
-
 glm::dvec3 ViewRay::end(const glm::dvec3& eye) const {
   if (psi_end > 0.0) return D * sin_alpha * (q + w / std::tan(psi_end));
-  constexpr double k_infinity = std::numeric_limits<double>::infinity();
-  glm::dvec3 end;
-  for (int axis = 0; axis < 3; ++axis)
-    end[axis] = w[axis] == 0.0 ? eye[axis] : std::copysign(k_infinity, w[axis]);
-  return end;
+  return far_end(eye, w);
 }
 
 ViewRay make_view_ray(const glm::dvec3& eye, const glm::dvec3& direction, const glm::dvec3& right,
-                      double distance, double smallest_alpha) {
-  ViewRay ray;
-  ray.D = glm::length(eye);
-  assert(ray.D > 0.0);
-  const glm::dvec3 l = -eye / ray.D;
-
-  ray.w = direction;
-  ray.sin_alpha = glm::length(glm::cross(l, direction));
-  ray.cos_alpha = glm::dot(l, direction);
-  const glm::dvec3 across = ray.sin_alpha > k_parallel ? direction : right;
-  const glm::dvec3 m = glm::normalize(across - glm::dot(across, l) * l);
-
-  const double alpha = std::atan2(ray.sin_alpha, ray.cos_alpha);
-  const double largest_alpha = std::numbers::pi - k_smallest_psi_eye;
-  if (alpha < smallest_alpha || alpha > largest_alpha) {
-    const double moved = std::min(std::max(alpha, smallest_alpha), largest_alpha);
-    ray.sin_alpha = std::sin(moved);
-    ray.cos_alpha = std::cos(moved);
-    ray.w = ray.cos_alpha * l + ray.sin_alpha * m;
-  }
-  ray.q = ray.cos_alpha * m - ray.sin_alpha * l;
+                      double distance, double smallest_alpha, std::optional<double> top) {
+  const double D = glm::length(eye);
+  assert(D > 0.0);
+  const LightPlane plane = make_light_plane(-eye / D, direction, right, smallest_alpha);
+  const double light_height = top ? std::max(-*top, 0.0) : 0.0;
+  const std::optional<double> eye_y = top ? std::optional(eye.y - *top) : std::nullopt;
+  const auto [from, to] = in_medium(eye_y, plane.w.y, distance);
 
   // Each angle from its own sides: as a difference it would lose its digits where it is small.
-  ray.psi_eye = std::atan2(ray.sin_alpha, -ray.cos_alpha);
-  if (distance > 0.0) {
-    ray.psi_end = std::atan2(ray.D * ray.sin_alpha, distance - ray.D * ray.cos_alpha);
-    ray.phi_d = std::atan2(distance * ray.sin_alpha, ray.D - distance * ray.cos_alpha);
-  } else {
-    ray.psi_end = 0.0;
-    ray.phi_d = ray.psi_eye;
-  }
-  return ray;
+  const auto psi = [&, from_foot = D * plane.cos_alpha, across = D * plane.sin_alpha](double t) {
+    return std::atan2(across, t - from_foot);
+  };
+  if (std::isinf(to)) return {plane, D, from, light_height, psi(from), 0.0, psi(from)};
+  const double phi_d =
+      std::atan2((to - from) * plane.sin_alpha, D - (from + to) * plane.cos_alpha + from / D * to);
+  return {plane, D, from, light_height, psi(from), psi(to), phi_d};
 }
 
 }  // namespace airlight::reference

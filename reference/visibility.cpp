@@ -3,6 +3,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include <embree3/rtcore.h>
@@ -38,18 +39,21 @@ struct Visibility::Embree {
   EmbreeDevice device;
   RTCScene scene = nullptr;
   const Triangles& triangles;
-  glm::dvec3 light;                 ///< world space [m]
-  glm::dvec3 eye;                   ///< relative to the light [m]
-  std::vector<bool> holding_light;  ///< one a triangle; empty where none does
+  glm::dvec3 origin;              ///< of all that follows, world space [m]
+  glm::dvec3 eye;                 ///< [m]
+  std::optional<glm::dvec3> sun;  ///< unit direction to it; without, the light is at the origin
+  std::vector<bool> edge_on;      ///< to the light, one a triangle; empty where none is
   std::vector<bool> holding_eye;
   bool wide;  ///< packets of 16 are native
 
-  Embree(const Triangles& of, const glm::dvec3& light_position, const glm::dvec3& eye_position)
+  Embree(const Triangles& of, const glm::dvec3& around, const glm::dvec3& eye_position,
+         const std::optional<glm::dvec3>& direction)
       : scene(rtcNewScene(device.get())),
         triangles(of),
-        light(light_position),
-        eye(eye_position - light_position),
-        holding_light(of.holding(light_position)),
+        origin(around),
+        eye(eye_position - around),
+        sun(direction),
+        edge_on(sun ? of.along(*sun, origin) : of.holding(origin)),
         holding_eye(of.holding(eye_position)),
         wide(rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0) {
     device.check();
@@ -58,19 +62,22 @@ struct Visibility::Embree {
   Embree& operator=(const Embree&) = delete;
   ~Embree() { rtcReleaseScene(scene); }
 
-  /// The corners of a triangle relative to the light, in full precision [m].
-  Corners corners(std::uint32_t triangle) const { return triangles.around(light, triangle); }
+  /// The corners of a triangle in full precision [m].
+  Corners corners(std::uint32_t triangle) const { return triangles.around(origin, triangle); }
 
   void attach_triangles();
 
   struct SurfaceContext;
   static void reject_coplanar(const RTCFilterFunctionNArguments* arguments);
-  static void reject_holding_light(const RTCFilterFunctionNArguments* arguments);
+  static void reject_edge_on(const RTCFilterFunctionNArguments* arguments);
   static void reject_holding_eye(const RTCFilterFunctionNArguments* arguments);
 
-  template <class Packet>
-  std::uint32_t lit_packets(const LightRays& rays, int count) const;
-  std::uint32_t lit_single(const LightRays& rays, int count) const;
+  template <class Packet, class Rays>
+  std::uint32_t lit_packets(const Rays& rays, int count) const;
+  template <class Rays>
+  std::uint32_t lit_single(const Rays& rays, int count) const;
+  template <class Rays>
+  std::uint32_t lit(const Rays& rays, int count, RayMode mode) const;
 };
 
 /// What the filter of a surface's light ray needs beside Embree's context, which comes first.
@@ -104,8 +111,8 @@ void reject(const RTCFilterFunctionNArguments* arguments, const std::vector<bool
 
 }  // namespace
 
-void Visibility::Embree::reject_holding_light(const RTCFilterFunctionNArguments* arguments) {
-  reject(arguments, static_cast<const Embree*>(arguments->geometryUserPtr)->holding_light);
+void Visibility::Embree::reject_edge_on(const RTCFilterFunctionNArguments* arguments) {
+  reject(arguments, static_cast<const Embree*>(arguments->geometryUserPtr)->edge_on);
 }
 
 void Visibility::Embree::reject_holding_eye(const RTCFilterFunctionNArguments* arguments) {
@@ -121,19 +128,20 @@ void Visibility::Embree::attach_triangles() {
       mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), triangles.positions.size()));
   device.check();
   for (std::size_t i = 0; i < triangles.positions.size(); ++i) {
-    const glm::vec3 relative(glm::dvec3(triangles.positions[i]) - light);
+    const glm::vec3 relative(glm::dvec3(triangles.positions[i]) - origin);
     for (int axis = 0; axis < 3; ++axis) positions[3 * i + static_cast<std::size_t>(axis)] = relative[axis];
   }
   rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.indices.data(), 0,
                              sizeof(glm::uvec3), triangles.count());
   rtcSetGeometryUserData(mesh, this);
-  if (!holding_light.empty()) rtcSetGeometryOccludedFilterFunction(mesh, reject_holding_light);
+  if (!edge_on.empty()) rtcSetGeometryOccludedFilterFunction(mesh, reject_edge_on);
   if (!holding_eye.empty()) rtcSetGeometryIntersectFilterFunction(mesh, reject_holding_eye);
   rtcCommitGeometry(mesh);
 }
 
-Visibility::Visibility(const Triangles& triangles, const glm::dvec3& light, const glm::dvec3& eye)
-    : embree_(std::make_unique<Embree>(triangles, light, eye)) {
+Visibility::Visibility(const Triangles& triangles, const glm::dvec3& origin, const glm::dvec3& eye,
+                       const std::optional<glm::dvec3>& sun)
+    : embree_(std::make_unique<Embree>(triangles, origin, eye, sun)) {
   const RTCScene scene = embree_->scene;
   rtcSetSceneFlags(
       scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
@@ -178,47 +186,75 @@ Visibility::Hit Visibility::first_hit(const glm::dvec3& direction) const {
 
 bool Visibility::surface_lit(const Hit& hit, const glm::dvec3& direction) const {
   const glm::dvec3 point = embree_->eye + hit.distance * direction;
-  const double length = glm::length(point);
-  if (length == 0.0) return true;
+  const std::optional<glm::dvec3>& sun = embree_->sun;
+  const double length = sun ? 0.0 : glm::length(point);  // of the light ray where that ends
+  if (!sun && length == 0.0) return true;
 
   const Corners corners = embree_->corners(hit.triangle);
   const glm::dvec3 n = normal(corners);
-  const double light_height = glm::dot(n, -corners[0]), eye_height = glm::dot(n, embree_->eye - corners[0]);
+  const double light_height = glm::dot(n, sun ? *sun : -corners[0]),
+               eye_height = glm::dot(n, embree_->eye - corners[0]);
   const bool is_between = light_height * eye_height < 0.0;
-  if (is_between && std::abs(light_height) > k_rounding * glm::length(n) * (length + hit.distance))
-    return false;
+  const double clearance = k_rounding * (length + hit.distance);
+  if (is_between && std::abs(light_height) > glm::length(n) * (sun ? k_rounding : clearance)) return false;
 
   Embree::SurfaceContext surface{};
   rtcInitIntersectContext(&surface.context);
   surface.context.filter = Embree::reject_coplanar;
   surface.embree = embree_.get();
   surface.point = point;
-  surface.clearance = k_rounding * (length + hit.distance);
-  const glm::vec3 along(point / length);
+  surface.clearance = clearance;
+  const glm::vec3 from(sun ? point : glm::dvec3(0.0)), along(sun ? *sun : point / length);
   RTCRay ray{};
+  ray.org_x = from.x;
+  ray.org_y = from.y;
+  ray.org_z = from.z;
   ray.dir_x = along.x;
   ray.dir_y = along.y;
   ray.dir_z = along.z;
-  ray.tfar = static_cast<float>(length);
+  ray.tfar = sun ? std::numeric_limits<float>::infinity() : static_cast<float>(length);
   ray.mask = ~0u;
   rtcOccluded1(embree_->scene, &surface.context, &ray);
   return ray.tfar >= 0.0f;
 }
 
-template <class Packet>
-std::uint32_t Visibility::Embree::lit_packets(const LightRays& rays, int count) const {
+namespace {
+
+/// Sets a ray, or one of a packet through a function that picks its member's lane.
+template <class Ray, class Lane>
+void set_ray(Ray& ray, const Lane& lane, const LightRays& rays, int i, const glm::vec3&) {
+  lane(ray.dir_x) = rays.direction_x[i];
+  lane(ray.dir_y) = rays.direction_y[i];
+  lane(ray.dir_z) = rays.direction_z[i];
+  lane(ray.tfar) = rays.length[i];
+}
+
+template <class Ray, class Lane>
+void set_ray(Ray& ray, const Lane& lane, const SunwardRays& rays, int i, const glm::vec3& sun) {
+  lane(ray.org_x) = rays.origin_x[i];
+  lane(ray.org_y) = rays.origin_y[i];
+  lane(ray.org_z) = rays.origin_z[i];
+  lane(ray.dir_x) = sun.x;
+  lane(ray.dir_y) = sun.y;
+  lane(ray.dir_z) = sun.z;
+  lane(ray.tfar) = std::numeric_limits<float>::infinity();
+}
+
+}  // namespace
+
+template <class Packet, class Rays>
+std::uint32_t Visibility::Embree::lit_packets(const Rays& rays, int count) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  const glm::vec3 towards(sun.value_or(glm::dvec3(0.0)));
   typename Packet::Ray packet{};
   alignas(64) int valid[Packet::k_width];
   std::uint32_t lit = 0;
   for (int first = 0; first < count; first += Packet::k_width) {
     for (int lane = 0; lane < Packet::k_width; ++lane) {
-      packet.dir_x[lane] = rays.direction_x[first + lane];
-      packet.dir_y[lane] = rays.direction_y[first + lane];
-      packet.dir_z[lane] = rays.direction_z[first + lane];
-      packet.tfar[lane] = rays.length[first + lane];
+      set_ray(
+          packet, [lane](float* member) -> float& { return member[lane]; }, rays, first + lane, towards);
       packet.mask[lane] = ~0u;
       valid[lane] = first + lane < count ? -1 : 0;
     }
@@ -230,29 +266,39 @@ std::uint32_t Visibility::Embree::lit_packets(const LightRays& rays, int count) 
   return lit;
 }
 
-std::uint32_t Visibility::Embree::lit_single(const LightRays& rays, int count) const {
+template <class Rays>
+std::uint32_t Visibility::Embree::lit_single(const Rays& rays, int count) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  const glm::vec3 towards(sun.value_or(glm::dvec3(0.0)));
   std::uint32_t lit = 0;
   RTCRay ray{};
   ray.mask = ~0u;
   for (int i = 0; i < count; ++i) {
-    ray.dir_x = rays.direction_x[i];
-    ray.dir_y = rays.direction_y[i];
-    ray.dir_z = rays.direction_z[i];
-    ray.tfar = rays.length[i];
+    set_ray(
+        ray, [](float& member) -> float& { return member; }, rays, i, towards);
     rtcOccluded1(scene, &context, &ray);
     lit |= static_cast<std::uint32_t>(ray.tfar >= 0.0f) << i;
   }
   return lit;
 }
 
+template <class Rays>
+std::uint32_t Visibility::Embree::lit(const Rays& rays, int count, RayMode mode) const {
+  assert(0 <= count && count <= Rays::k_count);
+  if (mode == RayMode::single) return lit_single(rays, count);
+  return wide ? lit_packets<Packet16>(rays, count) : lit_packets<Packet8>(rays, count);
+}
+
 std::uint32_t Visibility::lit(const LightRays& rays, int count, RayMode mode) const {
-  assert(0 <= count && count <= LightRays::k_count);
-  if (mode == RayMode::single) return embree_->lit_single(rays, count);
-  return embree_->wide ? embree_->lit_packets<Packet16>(rays, count)
-                       : embree_->lit_packets<Packet8>(rays, count);
+  assert(!embree_->sun);
+  return embree_->lit(rays, count, mode);
+}
+
+std::uint32_t Visibility::lit(const SunwardRays& rays, int count, RayMode mode) const {
+  assert(embree_->sun);
+  return embree_->lit(rays, count, mode);
 }
 
 }  // namespace airlight::reference

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "reference/reference.h"
 #include "reference/triangles.h"
@@ -18,17 +19,29 @@ struct LightRays {
   alignas(64) float length[k_count];  ///< from the light to the sample [m]
 };
 
-/// Which points the light sees: rays cast by Embree through triangles held relative to the light.
+/// Rays to a sun that are traced together: parallel, from neighbours along one view ray.
+struct SunwardRays {
+  static constexpr int k_count = LightRays::k_count;
+  alignas(64) float origin_x[k_count];  ///< relative to the eye [m]
+  alignas(64) float origin_y[k_count];
+  alignas(64) float origin_z[k_count];
+};
+
+/// Which points the light sees: rays cast by Embree through triangles held relative to the light, or to the
+/// eye under a sun.
 ///
 /// Light rays start at the light, so that all the rays of a view ray share their origin and descend the
-/// hierarchy together. A triangle that holds the light casts no shadow, and one that holds the eye is not
-/// seen (triangles.h). Embree's robust mode lets no ray through the edge between two triangles.
+/// hierarchy together. Those of a sun start at the points. A triangle that holds the light casts no shadow,
+/// and one that holds the eye is not seen (triangles.h). Embree's robust mode lets no ray through the edge
+/// between two triangles.
 class Visibility {
  public:
   /// @param triangles kept by reference
-  /// @param light, eye world space [m]
+  /// @param origin, eye world space [m]; the origin is where a point light is, and under a sun the eye
+  /// @param sun         unit direction to the light where that is a sun
   /// @throws scene::Error (driver) when Embree fails
-  Visibility(const Triangles& triangles, const glm::dvec3& light, const glm::dvec3& eye);
+  Visibility(const Triangles& triangles, const glm::dvec3& origin, const glm::dvec3& eye,
+             const std::optional<glm::dvec3>& sun = {});
   ~Visibility();
   Visibility(Visibility&&) noexcept;
   Visibility& operator=(Visibility&&) noexcept;
@@ -52,6 +65,7 @@ class Visibility {
 
   /// Bit i is set where ray i of the first `count` reaches its sample.
   std::uint32_t lit(const LightRays& rays, int count, RayMode mode) const;
+  std::uint32_t lit(const SunwardRays& rays, int count, RayMode mode) const;
 
  private:
   struct Embree;

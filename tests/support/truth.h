@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -18,9 +19,12 @@ struct CyclesImage {
   const char* scene;
   glm::dvec3 eye, target;
   double fov_degrees;
-  glm::dvec3 light;
-  float intensity, sigma_s, sigma_a, g;
+  glm::dvec3 light;  ///< where a point is, towards a sun
+  float intensity;   ///< of a sun, its irradiance
+  float sigma_s, sigma_a, g;
   float albedo;
+  std::optional<double> fog_top = {};
+  scene::LightKind kind = scene::LightKind::point;
 
   std::filesystem::path image_file() const { return shared_file("truth/" + std::string(image) + ".exr"); }
   std::filesystem::path scene_file() const { return shared_file("scenes/" + std::string(scene) + ".glb"); }
@@ -30,12 +34,13 @@ struct CyclesImage {
     view.camera.eye = eye;
     view.camera.target = target;
     view.camera.vertical_fov_degrees = fov_degrees;
-    view.lights[0].position = light;
-    view.lights[0].intensity = glm::vec3(intensity);
+    view.lights[0] = kind == scene::LightKind::sun ? scene::sun("", light, glm::vec3(intensity))
+                                                   : scene::point_light("", light, glm::vec3(intensity));
     view.medium.sigma_s = glm::vec3(sigma_s);
     view.medium.sigma_a = glm::vec3(sigma_a);
     if (g != 0) view.medium.phase = scene::PhaseFunction::henyey_greenstein;
     view.medium.g = g;
+    view.medium.top = fog_top;
     view.size = {256, 256};
     return view;
   }
@@ -54,6 +59,12 @@ inline const CyclesImage k_cycles_airlight[] = {
 };
 inline const CyclesImage k_cycles_full =
     {"fence_full", "victorian_fence_19k", {0.3, 0.5, 3}, {0, 0.4, 0}, 45, {1.5, 1.2, 1.8}, 8, 0.25f, 0, 0, 0.5f};
+inline const CyclesImage k_cycles_sun_airlight[] = {
+    {"maple_sun_airlight", "maple_198k", {-2, 2, 11}, {0.5, 3.8, 0}, 50, {0.35, 0.45, -1}, 10, 0.06f, 0, 0.5f, 0, 12, scene::LightKind::sun},
+    {"sponza_sun_airlight", "sponza_262k", {-12, 3, -0.5}, {0, 5, 0}, 60, {0.35, 1, 0.15}, 10, 0.04f, 0.01f, 0, 0, 16, scene::LightKind::sun},
+};
+inline const CyclesImage k_cycles_sun_full =
+    {"fence_sun_full", "victorian_fence_19k", {0.3, 0.5, 3}, {0, 0.4, 0}, 45, {-0.5, 0.6, 1}, 10, 0.25f, 0, 0, 0.5f, 4, scene::LightKind::sun};
 // clang-format on
 
 inline double mean(const std::vector<float>& values) {

@@ -48,7 +48,7 @@ Occluders occluders_of(const std::vector<Corners>& triangles) {
 
 bool is_lit(const ShadowIntervals& shadows, double psi) {
   return std::any_of(shadows.lit_runs().begin(), shadows.lit_runs().end(),
-                     [&](const auto& run) { return run.psi_to <= psi && psi <= run.psi_from; });
+                     [&](const auto& run) { return run.to <= psi && psi <= run.from; });
 }
 
 /// A view ray of random eye and direction, up to `distance`.
@@ -109,7 +109,7 @@ std::vector<ZRange> lit_ranges(const ViewRay& ray, const std::vector<Corners>& t
   shadows.trace(ray, occluders);
   std::vector<ZRange> ranges;
   for (const ShadowIntervals::Run& run : shadows.lit_runs())
-    ranges.push_back({2.0 / std::tan(run.psi_from), 2.0 / std::tan(run.psi_to)});
+    ranges.push_back({2.0 / std::tan(run.from), 2.0 / std::tan(run.to)});
   return ranges;
 }
 
@@ -284,7 +284,7 @@ std::vector<glm::vec3> without_hierarchy(const scene::Geometry& geometry, const 
       shadows.trace(ray, occluders);
       FogQuadrature fog(ray, static_cast<double>(view.medium.sigma_s.x), view.medium);
       glm::dvec3 sum(0.0);
-      for (const auto& run : shadows.lit_runs()) sum += fog.integral(run.psi_from, run.psi_to, nullptr);
+      for (const auto& run : shadows.lit_runs()) sum += fog.integral(run.from, run.to, nullptr);
       image.push_back(glm::vec3(static_cast<double>(view.medium.sigma_s.x) / (ray.D * ray.sin_alpha) * sum));
     }
   }

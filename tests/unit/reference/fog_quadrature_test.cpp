@@ -35,7 +35,7 @@ TEST(FogQuadrature, FourTimesTheNodesChangeNothingBeyondTheBound) {
     fog.refine(4);
     const double fine = fog.integral(from, to, nullptr).r;
     EXPECT_NEAR(usual, fine, FogQuadrature::k_error * fine)
-        << "D " << ray.D << " psi " << ray.psi_eye << " to " << ray.psi_end << " phase "
+        << "D " << ray.D << " psi " << ray.psi_start << " to " << ray.psi_end << " phase "
         << static_cast<int>(medium.phase) << " g " << medium.g << " sigma D " << sigma_t * ray.D << " from "
         << from << " to " << to;
   }

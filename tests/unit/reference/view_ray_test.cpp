@@ -18,8 +18,8 @@ TEST(ViewRay, LightRaysMeetTheViewRay) {
   for (double alpha : {1e-3, 0.3, 1.5, 2.5, std::numbers::pi - 1e-3}) {
     for (double distance : {0.0, 0.1, 5.0}) {
       const ViewRay ray = make_view_ray(k_eye, towards(alpha), k_right, distance, 1e-6);
-      EXPECT_NEAR(ray.psi_eye, std::numbers::pi - alpha, 1e-12);
-      EXPECT_NEAR(ray.phi_d + ray.psi_end, ray.psi_eye, 1e-12);
+      EXPECT_NEAR(ray.psi_start, std::numbers::pi - alpha, 1e-12);
+      EXPECT_NEAR(ray.phi_d + ray.psi_end, ray.psi_start, 1e-12);
       for (double s : {0.0, 0.25, 0.9}) {
         const double psi = ray.psi(s);
         const double r = ray.D * ray.sin_alpha / std::sin(psi);
@@ -49,7 +49,7 @@ TEST(ViewRay, StraightAtTheLightIsMovedByAQuarterPixel) {
 
 TEST(ViewRay, StraightAwayFromTheLightKeepsADirectionAcross) {
   const ViewRay ray = make_view_ray(k_eye, towards(std::numbers::pi), k_right, 0.0, 1e-3);
-  EXPECT_NEAR(ray.psi_eye, k_smallest_psi_eye, 1e-12);
+  EXPECT_NEAR(ray.psi_start, k_smallest_psi_eye, 1e-12);
   EXPECT_NEAR(glm::length(ray.q), 1.0, 1e-12);
   EXPECT_NEAR(glm::dot(ray.q, ray.w), 0.0, 1e-12);
 }
