@@ -8,11 +8,16 @@
 
 #include "reference/phase.h"
 
-// The integrand exp(−σ D (cos α + sin α cot(ψ/2))) p(−cos ψ) is smooth on every scale but three: the optical
-// depth may grow fast, it grows without bound as ψ → 0, and the lobe of a Henyey-Greenstein phase function is
-// 1 − |g| wide. Panels that are no longer than each of these scales, measured where the panel begins, leave
-// Gauss–Legendre quadrature an error near rounding. A light's texture adds scales of its own, and kinks,
-// where panels end (light_texture.h).
+// The light's path in the medium is a + b long, a from where the view ray enters it to the sample, b from the
+// sample to the light or to the layer's top below it. With light and eye in the medium, a + b = t + r =
+// D (cos α + sin α cot(ψ/2)). Of r, a light h over the top leaves out h/c, c(ψ) = −(w_y cos ψ + q_y sin ψ)
+// being the light ray's descent by length.
+//
+// The integrand exp(−σ (a + b)) p(−cos ψ) is smooth on every scale but four: the optical depth may change
+// fast, it grows without bound as ψ → 0, it would where a light ray from above the layer were level, and the
+// lobe of a Henyey-Greenstein phase function is 1 − |g| wide. Panels that are no longer than each of these
+// scales, measured where the panel begins, leave Gauss–Legendre quadrature an error near rounding. A light's
+// texture adds scales of its own, and kinks, where panels end (light_texture.h).
 
 namespace airlight::reference {
 
@@ -56,12 +61,33 @@ FogQuadrature::FogQuadrature(const ViewRay& ray, double sigma_t, const scene::Me
              : 0.0),
       depth_scale_(sigma_t * ray.D * ray.sin_alpha),
       depth_offset_(sigma_t * (ray.D * ray.cos_alpha - ray.from)),
-      deepest_(sigma_t * ray.D + k_depth_range),
-      smallest_psi_(k_psi_range * ray.psi_start) {}
+      depth_above_(sigma_t * ray.light_height),
+      w_y_(ray.w.y),
+      q_y_(ray.q.y),
+      // A ray that climbs to the layer's top may come to where less fog lies below the light.
+      only_deepens_(ray.light_height == 0.0 || ray.w.y <= 0.0),
+      smallest_psi_(k_psi_range * ray.psi_start) {
+  const double at_start = optical_depth(ray.psi_start);
+  deepest_ = k_depth_range + (only_deepens_ ? at_start : std::min(at_start, optical_depth(ray.psi_end)));
+}
+
+double FogQuadrature::descent(double psi) const {
+  // No less than straight to the light from below the top, where rounding says so.
+  return std::max(-(w_y_ * std::cos(psi) + q_y_ * std::sin(psi)),
+                  depth_above_ / depth_scale_ * std::sin(psi));
+}
+
+double FogQuadrature::descent_slope(double psi) const {
+  return w_y_ * std::sin(psi) - q_y_ * std::cos(psi);
+}
+
+double FogQuadrature::optical_depth(double psi) const {
+  const double endless = depth_offset_ + depth_scale_ / std::tan(0.5 * psi);  // view_ray.h (3)
+  return depth_above_ == 0.0 ? endless : endless - depth_above_ / descent(psi);
+}
 
 double FogQuadrature::integrand(double psi) const {
-  const double optical_depth = depth_offset_ + depth_scale_ / std::tan(0.5 * psi);  // view_ray.h (3)
-  return std::exp(-optical_depth) * phase(medium_, -std::cos(psi));
+  return std::exp(-optical_depth(psi)) * phase(medium_, -std::cos(psi));
 }
 
 bool FogQuadrature::has_narrow_lobe() const {
@@ -74,12 +100,28 @@ bool FogQuadrature::lobe_is_smooth(double psi, double step) const {
   return k_steps * step < std::hypot(g_ > 0.0 ? std::numbers::pi - psi : psi, 1.0 - std::abs(g_));
 }
 
+/// How far the optical depth of a light ray from above the layer goes up and down from ψ to `psi_to`, at
+/// most.
+double FogQuadrature::depth_variation(double psi, double psi_to) const {
+  const double here = descent(psi), there = descent(psi_to);
+  const bool passes_steepest = descent_slope(psi) <= 0.0 && descent_slope(psi_to) >= 0.0;
+  const double steepest = passes_steepest ? std::hypot(w_y_, q_y_) : std::max(here, there);
+  return depth_scale_ * (1.0 / std::tan(0.5 * psi_to) - 1.0 / std::tan(0.5 * psi)) +
+         depth_above_ * (1.0 / std::min(here, there) - 1.0 / steepest);
+}
+
 double FogQuadrature::panel_end(double psi, double optical_depth) const {
   const double by_distance = 0.5 * psi;
-  const double cotangent = (optical_depth + k_panel_depth - depth_offset_) / depth_scale_;
-  const double by_depth = 2.0 * std::atan(1.0 / cotangent);
   // A backward lobe lies at ψ = 0, where panels shrink anyway.
   const double by_lobe = g_ > 0.0 ? psi - std::hypot(std::numbers::pi - psi, 1.0 - g_) : 0.0;
+  if (depth_above_ > 0.0) {
+    const double to_level = std::atan2(descent(psi), std::abs(descent_slope(psi)));
+    double end = std::max({by_distance, by_lobe, psi - 0.25 * to_level});
+    while (depth_variation(psi, end) > k_panel_depth) end = 0.5 * (psi + end);
+    return end;
+  }
+  const double cotangent = (optical_depth + k_panel_depth - depth_offset_) / depth_scale_;
+  const double by_depth = 2.0 * std::atan(1.0 / cotangent);
   return std::max({by_distance, cotangent > 0.0 ? by_depth : 0.0, by_lobe});
 }
 
@@ -91,13 +133,14 @@ Value FogQuadrature::sum_panels(double psi_from, double psi_to, const Integrand&
   Value sum(0.0);
   double psi = psi_from;
   while (psi > psi_to) {
-    const double optical_depth = depth_offset_ + depth_scale_ / std::tan(0.5 * psi);
-    if (!(optical_depth < deepest_)) break;
+    const double depth = optical_depth(psi);
+    const bool is_dark = !(depth < deepest_);
+    if (is_dark && only_deepens_) break;
     const double longest =
-        psi > smallest_psi_ ? std::min(psi - panel_end(psi, optical_depth), longest_from(psi)) : psi;
+        psi > smallest_psi_ ? std::min(psi - panel_end(psi, depth), longest_from(psi)) : psi;
     const double length = std::min(longest, psi - psi_to);
     const double next = length < longest ? psi_to : psi - longest;
-    for (int part = 0; part < parts_; ++part) {
+    for (int part = 0; part < parts_ && !is_dark; ++part) {
       const double from = psi + (next - psi) * part / parts_, to = psi + (next - psi) * (part + 1) / parts_;
       // Short lit runs between many shadows are common, and need few nodes.
       if (length < longest / 64.0) {

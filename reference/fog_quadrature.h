@@ -15,7 +15,7 @@ inline glm::dvec3 airlight_scale(const ViewRay& ray, const scene::Light& light, 
   return glm::dvec3(medium.sigma_s) * glm::dvec3(light.intensity) / (ray.D * ray.sin_alpha);
 }
 
-/// ∫ e^{−σ(t+r)} p(α+φ) dφ along one view ray, by Gauss–Legendre quadrature in double precision.
+/// ∫ e^{−σ(a+b)} p(α+φ) dφ along one view ray, by Gauss–Legendre quadrature in double precision.
 class FogQuadrature {
  public:
   /// @param sigma_t extinction coefficient σ = σ_s + σ_a of one channel [1/m]
@@ -23,7 +23,7 @@ class FogQuadrature {
   FogQuadrature(const ViewRay& ray, double sigma_t, const scene::Medium& medium);
 
   /// No integral is farther off than this part of itself: of two million random ones, against four times the
-  /// nodes, the worst was off by 4e-8.
+  /// nodes, the worst was off by 4e-8; of a million in layers none by more.
   static constexpr double k_error = 1e-7;
 
   /// Cuts each panel of the quadrature in so many.
@@ -41,15 +41,23 @@ class FogQuadrature {
  private:
   template <class Value, class Integrand, class Longest>
   Value sum_panels(double psi_from, double psi_to, const Integrand& f, const Longest& longest) const;
+  double optical_depth(double psi) const;
   double integrand(double psi) const;
+  double descent(double psi) const;
+  double descent_slope(double psi) const;
+  double depth_variation(double psi, double psi_to) const;
   double panel_end(double psi, double optical_depth) const;
 
   const scene::Medium& medium_;
   int parts_ = 1;
-  double g_;             ///< of the phase function's lobe; 0 without one
-  double depth_scale_;   ///< σ D sin α
-  double depth_offset_;  ///< σ D cos α: the optical depth of the light's path is offset + scale · cot(ψ/2)
-  double deepest_;       ///< optical depth beyond which nothing is added
+  double g_;            ///< of the phase function's lobe; 0 without one
+  double depth_scale_;  ///< σ D sin α
+  double depth_offset_;  ///< σ (D cos α − from): the optical depth of the light's path is offset + scale ·
+                         ///< cot(ψ/2)
+  double depth_above_;  ///< σ · the light's height over the layer: less that / descent, of the path above it
+  double w_y_, q_y_;    ///< of the view ray
+  bool only_deepens_;   ///< along the ray
+  double deepest_;      ///< optical depth beyond which nothing is added
   double smallest_psi_;  ///< [rad], below which there is one panel
 };
 

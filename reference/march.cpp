@@ -48,7 +48,7 @@ inline float exp_of_nonpositive(float x) {
   return e * std::bit_cast<float>(power);
 }
 
-/// Sums the integrand e^{−σ(t+r)} p(α+φ) over the lit samples of a fan.
+/// Sums the integrand e^{−σ(a+b)} p(α+φ) (fog_quadrature.cpp) over the lit samples of a fan.
 /// @param sigma_t extinction coefficient σ of one channel [1/m]
 /// @param lobe    integrates the steps that it is not smooth over
 /// @param step    of φ [rad]
@@ -57,13 +57,22 @@ double sum_lit(const ViewRay& ray, const HalfAngles& half, std::uint32_t lit, do
                const scene::Medium& medium, const FogQuadrature& lobe, double step, const float* texture) {
   constexpr int k_count = LightRays::k_count;
   const double scale = sigma_t * ray.D * ray.sin_alpha;
-  const double offset = sigma_t * ray.D * ray.cos_alpha;
-  alignas(64) float value[k_count];
-  for (int i = 0; i < k_count; ++i) {
-    const auto depth =
-        static_cast<float>(offset + scale * (half.cosine[i] / half.sine[i]));  // view_ray.h (3)
-    value[i] = (lit >> i & 1u) ? exp_of_nonpositive(-depth) : 0.0f;
+  const double offset = sigma_t * (ray.D * ray.cos_alpha - ray.from);
+  alignas(64) float depth[k_count], value[k_count];
+  for (int i = 0; i < k_count; ++i)
+    depth[i] = static_cast<float>(offset + scale * (half.cosine[i] / half.sine[i]));  // view_ray.h (3)
+  if (ray.light_height > 0.0) {
+    // The path above the layer (fog_quadrature.cpp), from the whole in double precision.
+    for (int i = 0; i < k_count; ++i) {
+      const double cosine = half.cosine[i] * half.cosine[i] - half.sine[i] * half.sine[i];
+      const double sine = 2.0 * half.cosine[i] * half.sine[i];
+      const double descent =
+          std::max(-(ray.w.y * cosine + ray.q.y * sine), ray.light_height * sine / (ray.D * ray.sin_alpha));
+      depth[i] = static_cast<float>(offset + scale * (half.cosine[i] / half.sine[i]) -
+                                    sigma_t * ray.light_height / descent);
+    }
   }
+  for (int i = 0; i < k_count; ++i) value[i] = (lit >> i & 1u) ? exp_of_nonpositive(-depth[i]) : 0.0f;
   if (medium.phase != scene::PhaseFunction::isotropic) {
     for (int i = 0; i < k_count; ++i) {
       const double cosine = half.sine[i] * half.sine[i] - half.cosine[i] * half.cosine[i];  // view_ray.h (4)
@@ -125,7 +134,8 @@ AirlightImage Reference::march_to_sun(int samples, RayMode mode, const Progress&
       for (int x = 0; x < state.view.size.x; ++x) {
         const SunRay ray = state.ray<SunRay>(x, y);
         const SunRay part = shadowable.part_of(ray);
-        const bool is_empty = !(part.from < part.to);
+        const bool is_empty = part.from == part.to;
+        if (!is_empty) ++marched;
         const auto [radiance] = integrals.radiances<1>(ray, [&](const auto& add) {
           Shadowable::for_each_rest(ray, part, [&](double from, double to) { add(0, from, to, 1.0); });
           if (is_empty) return;
@@ -150,7 +160,6 @@ AirlightImage Reference::march_to_sun(int samples, RayMode mode, const Progress&
           add_lit();
         });
         image.radiance[state.index(x, y)] = glm::vec3(radiance);
-        marched += is_empty ? 0 : 1;
       }
     };
   };
@@ -169,7 +178,7 @@ AirlightImage Reference::march_to_point(int samples, RayMode mode, const Progres
 
   AirlightImage image;
   image.radiance.resize(state.pixels());
-  image.rays = static_cast<std::uint64_t>(samples) * state.pixels();
+  std::atomic<std::uint64_t> marched{0};  // view rays
   const auto start = std::chrono::steady_clock::now();
 
   const auto make_worker = [&] {
@@ -177,6 +186,8 @@ AirlightImage Reference::march_to_point(int samples, RayMode mode, const Progres
       LightRays rays;
       for (int x = 0; x < state.view.size.x; ++x) {
         const ViewRay ray = state.ray<ViewRay>(x, y);
+        if (ray.phi_d == 0.0) continue;  // none of it lies in the medium
+        ++marched;
         const double step = ray.phi_d / samples;
         const std::array quadrature = {FogQuadrature(ray, sigma_t.r, medium),
                                        FogQuadrature(ray, sigma_t.g, medium),
@@ -205,6 +216,7 @@ AirlightImage Reference::march_to_point(int samples, RayMode mode, const Progres
   };
   parallel(state.view.size.y, make_worker, progress);
 
+  image.rays = marched * static_cast<std::uint64_t>(samples);
   image.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return image;
 }

@@ -70,6 +70,10 @@ class LitRuns {
   /// Finds the changes along a view ray.
   void trace(const Ray& ray) {
     changes_.clear();
+    if (Samples<Ray>::place(ray, 0.0) == Samples<Ray>::place(ray, 1.0)) {
+      lit_.back() = 0;  // nothing of it lies in the medium, or can be in shadow
+      return;
+    }
     sample(ray);
     for (std::size_t i = 0; i + 1 < lit_.size(); ++i) {
       if (lit_[i] != lit_[i + 1]) changes_.push_back({fraction(i), fraction(i + 1), lit_[i] != 0, i});
