@@ -52,7 +52,7 @@ glm::dvec3 expected_radiance(const scene::View& view, double distance) {
       return sigma_s * std::exp(-depth) * phase(view.medium, glm::dot(w, light - point) / r) *
              static_cast<double>(view.lights[0].intensity[channel]) / (r * r);
     };
-    const double end = std::min(to, from + 60.0 / sigma_t);
+    const double end = std::isinf(to) ? from + 60.0 / sigma_t : to;
     std::vector<double> ends{from};
     for (double offset : {-100.0, -10.0, -1.0, 0.0, 1.0, 10.0, 100.0}) {
       const double t = nearest + offset * aside;
@@ -126,6 +126,22 @@ TEST(Layer, OfALampMatchesTheIntegralOverDistance) {
   EXPECT_GT(lit, 200);
   EXPECT_GT(from_above, 50);
   EXPECT_GT(into_fog, 30);
+}
+
+TEST(Layer, HoldsLightAboveADeeperDark) {
+  // A lamp far off and barely over the top: on the way up the light's path first grows, by an optical depth
+  // of 63, then shrinks by 70.
+  scene::View view;
+  view.camera.eye = {0, -500, 0};
+  view.camera.target = {0, -499.5, std::sqrt(0.75)};
+  view.camera.vertical_fov_degrees = 0.01;
+  view.lights[0] = scene::point_light("", {1000, 1, 0}, glm::vec3(1e20f));
+  view.medium.sigma_s = glm::vec3(0.08f);
+  view.medium.top = 0.0;
+  view.size = {1, 1};
+  const double expected = expected_radiance(view, k_infinity).r;
+  const double radiance = static_cast<double>(Reference({}, view).exact().radiance[0].r);
+  EXPECT_NEAR(radiance / expected, 1.0, 1e-6);
 }
 
 TEST(Layer, ThatReachesOverAllIsEndlessFog) {
