@@ -71,9 +71,12 @@ Grid::Grid(const gpu::Limits& limits, const Resolution& resolution) : resolution
   texels_ = {limits, bits_, gpu::Format::rgba32ui, name};
   first_shadowed_texels_ = {limits, first_shadowed_, gpu::Format::rgba32ui, name};
   block_ = gpu::Buffer(sizeof(shaders::EpipolarBlock));
-  phi_range_ = gpu::Buffer(2 * sizeof(float));
-  planes_ = gpu::Buffer(std::int64_t{theta} * 4 * static_cast<std::int64_t>(sizeof(float)));
+  constexpr auto k_float = static_cast<std::int64_t>(sizeof(float));
+  phi_range_ = gpu::Buffer((2 + std::int64_t{theta}) * k_float);
+  planes_ = gpu::Buffer(std::int64_t{theta} * 8 * k_float);
   plane_texels_ = {limits, planes_, gpu::Format::rgba32f, name};
+  box_ranges_ = gpu::Buffer(std::int64_t{theta} * 2 * k_float);
+  box_range_texels_ = {limits, box_ranges_, gpu::Format::rg32f, name};
 }
 
 void Grid::bind() const {
@@ -83,6 +86,10 @@ void Grid::bind() const {
   plane_texels_.bind_sampler(shaders::k_planes_unit);
   texels_.bind_sampler(shaders::k_grid_unit);
   first_shadowed_texels_.bind_sampler(shaders::k_first_shadowed_unit);
+}
+
+void Grid::bind_box_ranges() const {
+  box_range_texels_.bind_sampler(shaders::k_scratch_unit);
 }
 
 void Grid::bind_window(const Window& window) const {

@@ -10,10 +10,10 @@
 
 namespace airlight::epipolar {
 
-/// How many cells the grid has along each angle. Memory is alpha · theta · phi / 8 bytes. By default half of
-/// the paper's 512 × 2048 × 512: docs/figures.md has what that saves and costs.
+/// How many cells the grid has along each angle. Memory is alpha · theta · phi / 8 bytes. By default a
+/// quarter of the paper's 512 × 2048 × 512: docs/figures.md has what that saves and costs.
 struct Resolution {
-  int alpha = 512;   ///< view rays a plane: too few show as jagged shadow edges
+  int alpha = 256;   ///< view rays a plane: too few show as jagged shadow edges
   int theta = 1024;  ///< epipolar half-planes: too few show as streaks around the epipole
   int phi = 512;  ///< samples a view ray, a multiple of 128: too few show as noise and missed thin occluders
   bool operator==(const Resolution&) const = default;
@@ -48,7 +48,11 @@ class Grid {
   const gpu::Buffer& block() const { return block_; }          ///< EpipolarBlock
   const gpu::Buffer& phi_range() const { return phi_range_; }  ///< see shaders/epipolar/phi_range.glsl
 
-  const gpu::Buffer& planes() const { return planes_; }  ///< see shaders/epipolar/planes.glsl
+  const gpu::Buffer& planes() const { return planes_; }          ///< see shaders/epipolar/planes.glsl
+  const gpu::Buffer& box_ranges() const { return box_ranges_; }  ///< PhiRange of each plane: box_ranges()
+
+  /// Binds those as texels (k_scratch_unit).
+  void bind_box_ranges() const;
 
   /// For each light ray (θ_j, φ_k), at index j·N_φ + k, the first cell of α in shadow; N_α where none is.
   const gpu::Buffer& first_shadowed() const { return first_shadowed_; }
@@ -66,8 +70,8 @@ class Grid {
  private:
   Resolution resolution_;
   std::vector<Window> windows_;
-  gpu::Buffer bits_, block_, phi_range_, planes_, first_shadowed_;
-  gpu::TexelView texels_, plane_texels_, first_shadowed_texels_;
+  gpu::Buffer bits_, block_, phi_range_, planes_, box_ranges_, first_shadowed_;
+  gpu::TexelView texels_, plane_texels_, box_range_texels_, first_shadowed_texels_;
 };
 
 /// Makes a window what a program works on whose shader includes shaders/epipolar/window.glsl.

@@ -6,13 +6,17 @@
 
 namespace airlight::epipolar {
 
-PopulateShadowMap::PopulateShadowMap(const Resolution& resolution)
-    : program_(gpu::Pipeline::compute(k_populate_shadow_map_comp, resolution_constants(resolution))) {}
-
-void PopulateShadowMap::run(const Grid& grid, const frame::ShadowMap& shadow_map) const {
-  shadow_map.depth().bind_sampler(shaders::k_shadow_map_unit);
+void PopulateShadowMap::run(const Grid& grid, const frame::FrameInputs& inputs, double reach) {
+  inputs.shadow_map(reach).bind_sampler(shaders::k_shadow_map_unit);
   const Resolution& n = grid.resolution();
-  program_.dispatch({n.phi, (n.theta + 15) / 16, 1});
+  auto& program = programs_[inputs.shadow_map_is_plane() ? 1 : 0];
+  if (!program) {
+    const auto counts = resolution_constants(n);
+    const gpu::Constant on_plane(3, inputs.shadow_map_is_plane() ? 1 : 0);
+    program = gpu::Pipeline::compute(k_populate_shadow_map_comp,
+                                     std::array{counts[0], counts[1], counts[2], on_plane});
+  }
+  program->dispatch({n.phi, (n.theta + 15) / 16, 1});
 }
 
 }  // namespace airlight::epipolar

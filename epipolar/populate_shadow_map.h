@@ -1,7 +1,10 @@
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "epipolar/grid.h"
-#include "frame/shadow_map.h"
+#include "frame/methods.h"
 #include "gpu/pipeline.h"
 
 namespace airlight::epipolar {
@@ -10,13 +13,12 @@ namespace airlight::epipolar {
 /// bit of the nearest occluder. Robust for anything that can be rasterised; as exact as the shadow map.
 class PopulateShadowMap {
  public:
-  explicit PopulateShadowMap(const Resolution& resolution);
-
   /// Overwrites `grid.first_shadowed()`. The view's block and the grid are bound.
-  void run(const Grid& grid, const frame::ShadowMap& shadow_map) const;
+  /// @param reach see FrameInputs::shadow_map
+  void run(const Grid& grid, const frame::FrameInputs& inputs, double reach);
 
  private:
-  gpu::Pipeline program_;
+  std::array<std::optional<gpu::Pipeline>, 2> programs_;  ///< by: the shadow map is on a plane
 };
 
 }  // namespace airlight::epipolar

@@ -153,11 +153,18 @@ ThetaSpacing theta_spacing(const scene::View& view, const scene::CameraFrame& ca
 }
 
 Axes axes_of(const scene::View& view, const scene::Light& light) {
-  return make_axes(glm::normalize(light.position - view.camera.eye));
+  return make_axes(scene::direction_to(light, view.camera.eye));
 }
 
 Range alpha_of_grid(const scene::CameraFrame& camera, const Axes& axes, Ranges ranges) {
   return ranges == Ranges::full ? Range{0.0, std::numbers::pi} : alpha_range(camera, axes.axis);
+}
+
+/// EpipolarBlock::alpha_spacing.
+float spacing_of_alpha(const Range& alpha, Ranges ranges) {
+  if (ranges != Ranges::frame) return shaders::k_equal_alpha;
+  if (alpha.lower == 0.0) return shaders::k_root_of_alpha;
+  return alpha.upper == std::numbers::pi ? shaders::k_root_of_complement : shaders::k_equal_alpha;
 }
 
 }  // namespace
@@ -170,16 +177,126 @@ shaders::EpipolarBlock epipolar_block(const scene::View& view, const scene::Ligh
   const ThetaSpacing theta = theta_spacing(view, camera, axes, ranges, theta_cells);
   shaders::EpipolarBlock block{};
   block.axis = glm::vec3(axes.axis);
-  block.distance = static_cast<float>(glm::distance(light.position, view.camera.eye));
+  if (!scene::is_sun(light)) {
+    const double distance = glm::distance(light.position, view.camera.eye);
+    block.distance = static_cast<float>(distance);
+    block.inverse_distance = static_cast<float>(1.0 / distance);
+  }
+  block.own_ranges = ranges == Ranges::frame ? 1.0f : 0.0f;
   block.u = glm::vec3(axes.u);
   block.f = glm::vec3(axes.f);
   block.alpha_min = shaders::Angle(static_cast<float>(alpha.lower));
-  block.alpha_step = shaders::Angle(static_cast<float>((alpha.upper - alpha.lower) / resolution.alpha));
+  block.alpha_spacing = spacing_of_alpha(alpha, ranges);
+  block.alpha_step = shaders::spaced_alpha(block, shaders::Angle(static_cast<float>(alpha.upper))) /
+                     static_cast<float>(resolution.alpha);
   block.theta_middle = shaders::Angle(static_cast<float>(theta.middle));
   block.theta_half = shaders::Angle(static_cast<float>(theta.half));
   block.theta_step = shaders::Angle(static_cast<float>(2.0 * theta.half / resolution.theta));
   block.theta_growth = static_cast<float>(theta.growth);
   return block;
+}
+
+namespace {
+
+/// The φ of what is known of a convex body, or of a part of it.
+struct PhiBounds {
+  double lower = std::numeric_limits<double>::infinity(), upper = 0.0;
+  void include(double phi) {
+    lower = std::min(lower, phi);
+    upper = std::max(upper, phi);
+  }
+  void include(const PhiBounds& other) {
+    lower = std::min(lower, other.lower);
+    upper = std::max(upper, other.upper);
+  }
+};
+
+}  // namespace
+
+std::vector<glm::vec2> box_ranges(const scene::Box& box, glm::dvec3 eye, const shaders::EpipolarBlock& block,
+                                  int theta_count) {
+  using std::numbers::pi;
+  std::vector<glm::vec2> ranges(static_cast<std::size_t>(theta_count), glm::vec2(0.0f));
+  if (box.empty()) return ranges;
+  const bool is_sun = shaders::is_sun(block);
+  const double distance = static_cast<double>(block.distance);
+  const auto phi_of = [&](double across, double z) {
+    return is_sun ? across : std::atan2(across, distance - z);
+  };
+
+  // The box along u, f and the axis. A face's slack covers what single precision makes of it.
+  const glm::dvec3 u(block.u), f(block.f), axis(block.axis);
+  const glm::dvec3 lower = glm::dvec3(box.lower) - eye, upper = glm::dvec3(box.upper) - eye;
+  const glm::dvec3 slack(1e-5 * (glm::length(lower) + glm::length(upper)));
+  std::array<glm::dvec3, 8> corners;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const glm::dvec3 side(i & 1, i >> 1 & 1, i >> 2);
+    const glm::dvec3 corner = glm::mix(lower - slack, upper + slack, side);
+    corners[i] = {glm::dot(corner, u), glm::dot(corner, f), glm::dot(corner, axis)};
+  }
+
+  // Where the axis goes through the box, every half-plane begins there, at φ = 0, or, beyond the light, at π.
+  PhiBounds of_axis;
+  double enters = -std::numeric_limits<double>::infinity(), leaves = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    const double from = (lower[i] - slack[i]) / axis[i], to = (upper[i] + slack[i]) / axis[i];
+    if (axis[i] == 0.0) {
+      if (lower[i] > slack[i] || upper[i] < -slack[i]) leaves = -std::numeric_limits<double>::infinity();
+      continue;
+    }
+    enters = std::max(enters, std::min(from, to));
+    leaves = std::min(leaves, std::max(from, to));
+  }
+  if (enters <= leaves) {
+    if (is_sun || enters <= distance) of_axis.include(0.0);
+    if (!is_sun && leaves >= distance) of_axis.include(pi);
+  }
+
+  // Where a half-plane cuts the box, φ is extreme at a corner of the section: where it cuts an edge, or on
+  // the axis.
+  const auto section = [&](double theta) {
+    PhiBounds bounds = of_axis;
+    const double cosine = std::cos(theta), sine = std::sin(theta);
+    for (std::size_t i = 0; i < 8; ++i) {
+      for (std::size_t bit = 1; bit < 8; bit *= 2) {
+        if (i & bit) continue;
+        const glm::dvec3 &p = corners[i], &q = corners[i | bit];
+        const double side_p = p.y * cosine - p.x * sine, side_q = q.y * cosine - q.x * sine;
+        if ((side_p < 0.0) == (side_q < 0.0)) continue;
+        const glm::dvec3 point = p + side_p / (side_p - side_q) * (q - p);
+        const double across = point.x * cosine + point.y * sine;
+        if (across >= 0.0) bounds.include(phi_of(across, point.z));
+      }
+    }
+    return bounds;
+  };
+  const auto border = [&](int j) {
+    return static_cast<double>(shaders::theta_of_plane(block, shaders::Cell(static_cast<float>(j))));
+  };
+  const auto middle = static_cast<double>(block.theta_middle);
+  PhiBounds at_border = section(middle + border(0));
+  for (int j = 0; j < theta_count; ++j) {
+    // Of the cell: what its borders' sections, its middle's and the corners between them have.
+    const double from = border(j), to = border(j + 1);
+    PhiBounds bounds = at_border;
+    bounds.include(section(middle + 0.5 * (from + to)));
+    at_border = section(middle + to);
+    bounds.include(at_border);
+    for (const glm::dvec3& corner : corners) {
+      const double theta =
+          std::remainder(std::atan2(corner.y, corner.x) - middle - 0.5 * (from + to), 2.0 * pi);
+      if (std::abs(theta) <= 0.5 * (to - from) * 1.0001)
+        bounds.include(phi_of(std::hypot(corner.x, corner.y), corner.z));
+    }
+    if (bounds.lower > bounds.upper) continue;
+    // Between two sections a straight edge comes nearer to the axis than where they cut it, by the cosine of
+    // the angle between them; a point's light rays beyond a right angle nearer to its other side.
+    const double shrink = std::cos(std::min(to - from, 0.5 * pi)) * (1.0 - 1e-6);
+    const double above =
+        is_sun || bounds.upper < 0.5 * pi ? bounds.upper * (1.0 + 1e-6) : pi - (pi - bounds.upper) * shrink;
+    ranges[static_cast<std::size_t>(j)] = glm::vec2(bounds.lower * shrink, above);
+  }
+  return ranges;
 }
 
 Resolution pixel_exact(const scene::View& view, const scene::Light& light, Ranges ranges,
@@ -190,7 +307,9 @@ Resolution pixel_exact(const scene::View& view, const scene::Light& light, Range
   const double corner = 1.0 + camera.half_width * camera.half_width + camera.half_height * camera.half_height;
   const double least_pixel = 2.0 * camera.half_height / view.size.y / corner;
   Resolution resolution;
-  resolution.alpha = static_cast<int>(std::ceil((alpha.upper - alpha.lower) / least_pixel));
+  // Cells that are equal in a root are at its far end twice as wide as all are in the mean.
+  const double widest = spacing_of_alpha(alpha, ranges) == shaders::k_equal_alpha ? 1.0 : 2.0;
+  resolution.alpha = static_cast<int>(std::ceil(widest * (alpha.upper - alpha.lower) / least_pixel));
   const ThetaSpacing theta = theta_spacing(view, camera, axes, ranges, theta_cells);
   const std::vector<double> reach = reach_of_planes(camera, view.size, axes);
   double planes = 1.0;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <glm/glm.hpp>
 
 #include "epipolar/grid.h"
@@ -55,6 +57,11 @@ enum class ThetaCells {
 /// The uniform block of a view and one of its lights.
 shaders::EpipolarBlock epipolar_block(const scene::View& view, const scene::Light& light,
                                       const Resolution& resolution, Ranges ranges, ThetaCells theta_cells);
+
+/// The range of φ, for each half-plane's cell, in which the scene's box lies: nothing casts a shadow
+/// elsewhere. Never too small; empty, (0, 0), where the box is not met.
+std::vector<glm::vec2> box_ranges(const scene::Box& box, glm::dvec3 eye, const shaders::EpipolarBlock& block,
+                                  int theta_count);
 
 /// The counts of a grid for a view and one of its lights whose rows are nowhere more than a pixel apart in α
 /// and θ; φ is left at its default.

@@ -5,5 +5,5 @@
 namespace airlight::shaders {
 #include "epipolar/conservative.glsl"
 #include "epipolar/grid.glsl"
-static_assert(sizeof(EpipolarBlock) == 64, "must match std140");
+static_assert(sizeof(EpipolarBlock) == 80, "must match std140");
 }  // namespace airlight::shaders

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "epipolar/volume.h"
 #include "frame/method.h"
 #include "frame/screen_pass.h"
@@ -24,7 +27,8 @@ class SurfaceLookup : public frame::SurfaceShadow {
 
  private:
   ShadowVolume volume_;
-  frame::ScreenPass pass_;
+  VolumeOptions options_;
+  std::array<std::optional<frame::ScreenPass>, 2> passes_;  ///< by: the shadow map is on a plane
 };
 
 frame::SurfaceMethod surface_lookup_method();

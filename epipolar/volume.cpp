@@ -8,6 +8,8 @@
 #include "scene/error.h"
 
 #include "spirv/epipolar/phi_range_comp.h"
+#include "spirv/epipolar/plane_cells_comp.h"
+#include "spirv/epipolar/plane_range_comp.h"
 #include "spirv/epipolar/planes_comp.h"
 #include "spirv/epipolar/scatter_comp.h"
 
@@ -132,12 +134,14 @@ ShadowVolume::ShadowVolume(const gpu::Limits& limits, const VolumeOptions& optio
     : options_(options),
       grid_(limits, options.resolution),
       planes_(gpu::Pipeline::compute(k_planes_comp, resolution_constants(options.resolution))),
-      phi_range_(gpu::Pipeline::compute(k_phi_range_comp)),
+      phi_range_(gpu::Pipeline::compute(k_phi_range_comp, resolution_constants(options.resolution))),
+      plane_cells_(gpu::Pipeline::compute(k_plane_cells_comp, resolution_constants(options.resolution))),
+      plane_range_(gpu::Pipeline::compute(k_plane_range_comp, resolution_constants(options.resolution))),
       scatter_(gpu::Pipeline::compute(k_scatter_comp, resolution_constants(options.resolution))) {
   options.validate();
   switch (options.populate) {
     case Populate::shadow_map:
-      populate_shadow_map_.emplace(options.resolution);
+      populate_shadow_map_.emplace();
       break;
     case Populate::conservative:
       populate_conservative_.emplace(options.resolution);
@@ -159,13 +163,16 @@ ShadowVolume::ShadowVolume(const gpu::Limits& limits, const VolumeOptions& optio
   }
 }
 
-shaders::EpipolarBlock ShadowVolume::find_ranges(const frame::FrameInputs& inputs) const {
+shaders::EpipolarBlock ShadowVolume::find_ranges(const frame::FrameInputs& inputs, bool own_ranges) const {
   shaders::EpipolarBlock block =
       epipolar_block(inputs.view, inputs.light(), options_.resolution, options_.ranges, options_.theta_cells);
+  if (!own_ranges) block.own_ranges = 0.0f;
   if (populate_screen_space_) {
     // It finds occluders on the grid's own view rays, those nearer the axis than the image included.
-    const float count = static_cast<float>(options_.resolution.alpha);
-    block.alpha_step += std::exchange(block.alpha_min, shaders::Angle(0.0f)) / count;
+    const auto count = static_cast<float>(options_.resolution.alpha);
+    const shaders::Angle end = shaders::alpha_of_cell(block, shaders::Cell(count));
+    block.alpha_min = shaders::Angle(0.0f);
+    block.alpha_step = shaders::spaced_alpha(block, end) / count;
   }
   inputs.timer.time("ranges", [&] {
     grid_.block().write(&block, sizeof block);
@@ -173,22 +180,33 @@ shaders::EpipolarBlock ShadowVolume::find_ranges(const frame::FrameInputs& input
     grid_.bind();
     grid_.planes().bind_storage(shaders::k_planes_storage);
     planes_.dispatch({options_.resolution.theta, 1, 1});
+    const int planes = options_.resolution.theta;
+    std::vector<glm::vec2> ranges = box_ranges(inputs.scene.box(), inputs.view.camera.eye, block, planes);
     if (options_.ranges == Ranges::full) {
-      const auto order_of_pi = std::bit_cast<std::uint32_t>(2.0f);
-      grid_.phi_range().write(&order_of_pi, sizeof order_of_pi);
+      // Every φ there is, and that a view ray can end at.
+      const float endless = shaders::is_sun(block) ? static_cast<float>(shaders::k_endless_phi) : 2.0f;
+      std::vector<float> range(2 + static_cast<std::size_t>(planes), endless);
+      range[0] = range[1] = 0.0f;
+      grid_.phi_range().write(range.data(), grid_.phi_range().bytes());
+      if (!shaders::is_sun(block))
+        ranges.assign(ranges.size(), glm::vec2(0.0f, static_cast<float>(shaders::k_half_turn)));
     } else {
       inputs.surfaces.bind_sampler(shaders::k_surface_unit);
       const glm::uvec2 size = inputs.view.size;
       phi_range_.dispatch({size.x, (size.y + 31) / 32, 1});
     }
+    grid_.box_ranges().write(ranges.data(), planes * 8);
+    grid_.bind_box_ranges();
+    plane_range_.dispatch({planes, 1, 1});
   });
   return block;
 }
 
 void ShadowVolume::fill_unscanned(const frame::FrameInputs& inputs, bool with_bits) {
+  grid_.planes().bind_storage(shaders::k_planes_storage);
+  plane_cells_.dispatch({options_.resolution.theta, 1, 1});
   if (populate_screen_space_) populate_screen_space_->run(inputs, grid_);
-  if (populate_shadow_map_)
-    populate_shadow_map_->run(grid_, inputs.shadow_map(reach_of_light_rays(options_)));
+  if (populate_shadow_map_) populate_shadow_map_->run(grid_, inputs, reach_of_light_rays(options_));
   if (populate_conservative_) populate_conservative_->run(grid_, inputs.scene, inputs.triangles_at_light());
   if (with_bits && !populate_screen_space_) {
     grid_.bits().clear();

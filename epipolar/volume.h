@@ -66,8 +66,9 @@ class ShadowVolume {
   ShadowVolume(const gpu::Limits& limits, const VolumeOptions& options);
 
   /// Finds the ranges of α, θ and φ for a view, and cuts φ equally. Times `ranges`. Leaves the grid bound.
+  /// @param own_ranges whether, with Ranges::frame, each half-plane has its own range of φ
   /// @returns what it wrote to the grid's block
-  shaders::EpipolarBlock find_ranges(const frame::FrameInputs& inputs) const;
+  shaders::EpipolarBlock find_ranges(const frame::FrameInputs& inputs, bool own_ranges = true) const;
 
   /// Populates and scans; the grid is bound. Times `populate` and `scan`.
   void fill(const frame::FrameInputs& inputs);
@@ -83,7 +84,7 @@ class ShadowVolume {
 
   VolumeOptions options_;
   Grid grid_;
-  gpu::Pipeline planes_, phi_range_, scatter_;
+  gpu::Pipeline planes_, phi_range_, plane_cells_, plane_range_, scatter_;
   std::optional<PopulateShadowMap> populate_shadow_map_;
   std::optional<PopulateConservative> populate_conservative_;
   std::optional<PopulateScreenSpace> populate_screen_space_;

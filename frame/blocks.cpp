@@ -27,21 +27,36 @@ shaders::CameraBlock camera_block(const scene::CameraFrame& camera, glm::ivec2 i
   return block;
 }
 
-shaders::LightBlock light_block(const scene::Light& light, glm::dvec3 eye, float near, int shadow_map_size) {
+shaders::LightBlock light_block(const scene::Light& light, glm::dvec3 eye, float near, int shadow_map_size,
+                                const std::optional<ShadowPlane>& plane) {
   shaders::LightBlock block{};
-  block.from_eye = glm::vec3(light.position - eye);
-  block.near = near;
-  block.intensity = light.intensity;
+  const bool is_sun = scene::is_sun(light);
+  block.from_eye = glm::vec3(is_sun ? light.towards : light.position - eye);
+  block.is_near = is_sun ? 0.0f : 1.0f;
+  block.intensity = is_sun ? light.irradiance : light.intensity;
   block.shadow_map_size = static_cast<float>(shadow_map_size);
+  block.near = near;
+  block.axis = glm::vec3(scene::direction_to(light, eye));
+  block.inverse_distance = is_sun ? 0.0f : static_cast<float>(1.0 / glm::distance(light.position, eye));
+  if (plane) {
+    block.depth_scale = static_cast<float>(plane->depth_scale);
+    block.depth_offset = static_cast<float>(plane->depth_offset);
+    block.half_texel = static_cast<float>(plane->half_texel);
+    block.image_x = glm::vec4(plane->image_x);
+    block.image_y = glm::vec4(plane->image_y);
+  } else {
+    block.half_texel = static_cast<float>(glm::distance(light.position, eye) / shadow_map_size);
+  }
   return block;
 }
 
-shaders::MediumBlock medium_block(const scene::Medium& medium) {
+shaders::MediumBlock medium_block(const scene::Medium& medium, glm::dvec3 eye) {
   shaders::MediumBlock block{};
   block.sigma_s = medium.sigma_s;
   block.g = medium.g;
   block.sigma_t = medium.sigma_s + medium.sigma_a;
   block.rayleigh_weight = medium.rayleigh_weight;
+  block.top = medium.top ? static_cast<float>(*medium.top - eye.y) : shaders::k_no_top;
   return block;
 }
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
+
 #include "frame/scene_buffers.h"
+#include "frame/shadow_plane.h"
 #include "scene/scene.h"
 #include "shared.h"
 
@@ -11,7 +14,8 @@ namespace airlight::shaders {
 #include "frame/light_texture.glsl"
 #include "frame/medium.glsl"
 #include "frame/shadow_cube.glsl"
-static_assert(sizeof(CameraBlock) == 80 && sizeof(LightBlock) == 32 && sizeof(MediumBlock) == 32,
+#include "frame/shadow_plane.glsl"
+static_assert(sizeof(CameraBlock) == 80 && sizeof(LightBlock) == 96 && sizeof(MediumBlock) == 48,
               "must match std140");
 }  // namespace airlight::shaders
 
@@ -27,10 +31,13 @@ float near_depth(const SceneBuffers& scene, glm::dvec3 apex, double eye_light_di
 /// @param near see CameraBlock
 shaders::CameraBlock camera_block(const scene::CameraFrame& camera, glm::ivec2 image_size, float near);
 
+/// Of a light whose shadow map is a cube, if `plane` is none.
 /// @param near see LightBlock
-/// @param shadow_map_size side of a cube face [texels]
-shaders::LightBlock light_block(const scene::Light& light, glm::dvec3 eye, float near, int shadow_map_size);
+/// @param shadow_map_size side of the map, or of a face of the cube [texels]
+shaders::LightBlock light_block(const scene::Light& light, glm::dvec3 eye, float near, int shadow_map_size,
+                                const std::optional<ShadowPlane>& plane = {});
 
-shaders::MediumBlock medium_block(const scene::Medium& medium);
+/// @param eye world space [m]
+shaders::MediumBlock medium_block(const scene::Medium& medium, glm::dvec3 eye);
 
 }  // namespace airlight::frame

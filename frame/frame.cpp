@@ -80,11 +80,15 @@ std::vector<float> read_visibility(const gpu::Texture& texture, const std::vecto
   return visibility;
 }
 
-double distance_to_nearest_light(const scene::View& view) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const scene::Light& light : view.lights)
-    nearest = std::min(nearest, glm::distance(light.position, view.camera.eye));
-  return nearest;
+/// The length that single precision around the eye is relative to: how far it is to the light, or as far as
+/// the scene reaches where the light is farther, a sun among them.
+double length_scale(const scene::Light& light, glm::dvec3 eye, const scene::Box& scene) {
+  constexpr double k_infinity = std::numeric_limits<double>::infinity();
+  const double to_light = scene::is_sun(light) ? k_infinity : glm::distance(light.position, eye);
+  if (scene.empty()) return std::min(to_light, 1e30);
+  const glm::dvec3 lower = glm::abs(glm::dvec3(scene.lower) - eye),
+                   upper = glm::abs(glm::dvec3(scene.upper) - eye);
+  return std::min(to_light, glm::length(glm::max(lower, upper)));
 }
 
 template <typename Block>
@@ -138,19 +142,23 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
 
   // What the camera sees.
   timer.time("surfaces", [&] {
-    const double distance = distance_to_nearest_light(view);
+    double distance = std::numeric_limits<double>::infinity();
+    for (const scene::Light& light : view.lights)
+      distance = std::min(distance, length_scale(light, camera.eye, scene.box()));
     const float near = near_depth(scene, camera.eye, distance);
     write_block(camera_block_, camera_block(camera, view.size, near), shaders::k_camera_block);
-    write_block(medium_block_, medium_block(view.medium), shaders::k_medium_block);
+    write_block(medium_block_, medium_block(view.medium, camera.eye), shaders::k_medium_block);
     gbuffer_->draw(scene, camera, scene.triangles_at(camera.eye, distance));
   });
 
   // What each light adds.
   for (std::size_t i = 0; i < view.lights.size(); ++i) {
     const scene::Light& light = view.lights[i];
-    resources_.begin_light(light, camera.eye);
-    const float near = near_depth(scene, light.position, glm::distance(light.position, camera.eye));
-    write_block(light_block_, light_block(light, camera.eye, near, resources_.shadow_map_size()),
+    resources_.begin_light(light, camera);
+    const std::optional<ShadowPlane>& plane = resources_.shadow_plane();
+    const float near =
+        plane ? 0.0f : near_depth(scene, light.position, glm::distance(light.position, camera.eye));
+    write_block(light_block_, light_block(light, camera.eye, near, resources_.shadow_map_size(), plane),
                 shaders::k_light_block);
     const FrameInputs inputs{.context = context_,
                              .view = view,

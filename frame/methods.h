@@ -33,10 +33,12 @@ struct FrameInputs {
   // What is made when it is first asked for: see Resources.
   /// @param reach of the directions that are looked up, how far they lie beside any from the light to what
   /// the camera may see [rad]; all directions by default. Beyond, the map need not know of occluders.
-  const ShadowMap& shadow_map(double reach = std::numbers::pi) const {
-    return resources.shadow_map(
-        needed_faces(scene::camera_frame(view.camera, view.size), light().position, reach), timer);
+  /// @returns sampler2DArray: a cube's faces, or one image
+  const gpu::Texture& shadow_map(double reach = std::numbers::pi) const {
+    return resources.shadow_map(scene::camera_frame(view.camera, view.size), reach, timer);
   }
+  /// Whether it is one image on a plane, not a cube.
+  bool shadow_map_is_plane() const { return resources.shadow_plane().has_value(); }
   const std::vector<std::uint32_t>& triangles_at_light() const { return resources.triangles_at_light(); }
   const gpu::Texture* light_texture() const { return resources.light_texture(); }
   const scene::Components& components() const { return resources.components(timer); }

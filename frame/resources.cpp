@@ -14,12 +14,16 @@ Resources::Resources(gpu::Context& context, const scene::Geometry& geometry, int
     : context_(context), geometry_(geometry), scene_(context, geometry), shadow_map_size_(shadow_map_size) {}
 
 void Resources::begin_frame() {
-  shadow_map_is_used_ = false;
+  shadow_map_bytes_ = 0;
 }
 
-void Resources::begin_light(const scene::Light& light, glm::dvec3 eye) {
+void Resources::begin_light(const scene::Light& light, const scene::CameraFrame& camera) {
   light_ = &light;
-  triangles_at_light_ = scene_.triangles_at(light.position, glm::distance(light.position, eye));
+  shadow_plane_ = fit_shadow_plane(light, camera, scene_.box(), shadow_map_size_);
+  shadow_plane_is_drawn_ = false;
+  triangles_at_light_.clear();
+  if (!shadow_plane_)
+    triangles_at_light_ = scene_.triangles_at(light.position, glm::distance(light.position, camera.eye));
   if (shadow_map_) shadow_map_->reset();
   if (light.texture == light_texture_) return;
   light_texture_ = light.texture;
@@ -40,14 +44,25 @@ void Resources::begin_light(const scene::Light& light, glm::dvec3 eye) {
   light_texture_texels_.write(texels.data());
 }
 
-const ShadowMap& Resources::shadow_map(CubeFaces faces, gpu::StageTimer& timer) {
+const gpu::Texture& Resources::shadow_map(const scene::CameraFrame& camera, double reach,
+                                          gpu::StageTimer& timer) {
+  if (shadow_plane_) {
+    if (!shadow_plane_map_) shadow_plane_map_.emplace(context_, shadow_map_size_);
+    if (!shadow_plane_is_drawn_) {
+      timer.time("shadow_map", [&] { shadow_plane_map_->draw(scene_, *shadow_plane_); });
+      shadow_plane_is_drawn_ = true;
+    }
+    shadow_map_bytes_ = std::max(shadow_map_bytes_, shadow_plane_map_->depth().bytes());
+    return shadow_plane_map_->depth();
+  }
   if (!shadow_map_) shadow_map_.emplace(context_, shadow_map_size_);
-  shadow_map_is_used_ = true;
+  const CubeFaces faces = needed_faces(camera, light_->position, reach);
   if (!shadow_map_->has(faces)) {
     timer.time("shadow_map",
                [&] { shadow_map_->draw(scene_, light_->position, triangles_at_light_, faces); });
   }
-  return *shadow_map_;
+  shadow_map_bytes_ = std::max(shadow_map_bytes_, shadow_map_->depth().bytes());
+  return shadow_map_->depth();
 }
 
 const scene::Edges& Resources::edges(gpu::StageTimer& timer) {
@@ -65,7 +80,7 @@ const scene::Components& Resources::components(gpu::StageTimer& timer) {
 
 std::map<std::string, std::int64_t> Resources::bytes() const {
   std::map<std::string, std::int64_t> bytes = {{"scene", scene_.bytes()}};
-  if (shadow_map_is_used_) bytes["shadow_map"] = shadow_map_->depth().bytes();
+  if (shadow_map_bytes_ > 0) bytes["shadow_map"] = shadow_map_bytes_;
   if (light_texture_) bytes["light_texture"] = light_texture_texels_.bytes();
   return bytes;
 }

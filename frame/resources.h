@@ -9,6 +9,7 @@
 
 #include "frame/scene_buffers.h"
 #include "frame/shadow_map.h"
+#include "frame/shadow_plane.h"
 #include "gpu/texture.h"
 #include "gpu/timer.h"
 #include "scene/components.h"
@@ -32,16 +33,18 @@ class Resources {
   void begin_frame();
 
   /// What is asked for from now on is this light's. Its block is bound.
-  /// @param eye world space [m]
   /// @throws scene::Error (driver) for a texture over the driver's limit
-  void begin_light(const scene::Light& light, glm::dvec3 eye);
+  void begin_light(const scene::Light& light, const scene::CameraFrame& camera);
+
+  /// Where the light's shadow map lies, if it is drawn on a plane: else it is a cube.
+  const std::optional<ShadowPlane>& shadow_plane() const { return shadow_plane_; }
 
   /// The triangles on which the light lies, which cast no shadow: see SceneBuffers::triangles_at.
   const std::vector<std::uint32_t>& triangles_at_light() const { return triangles_at_light_; }
 
-  /// With at least `faces` drawn. Stage `shadow_map`.
+  /// With at least what a camera needs drawn (FrameInputs::shadow_map). Stage `shadow_map`.
   /// @throws scene::Error (driver) for one over the driver's limit
-  const ShadowMap& shadow_map(CubeFaces faces, gpu::StageTimer& timer);
+  const gpu::Texture& shadow_map(const scene::CameraFrame& camera, double reach, gpu::StageTimer& timer);
 
   /// rgba32f, by direction (light_texture.glsl); nullptr where the light has none.
   const gpu::Texture* light_texture() const { return light_texture_ ? &light_texture_texels_ : nullptr; }
@@ -62,9 +65,12 @@ class Resources {
   int shadow_map_size_;
 
   std::optional<ShadowMap> shadow_map_;
+  std::optional<ShadowPlaneMap> shadow_plane_map_;
   const scene::Light* light_ = nullptr;  ///< whose things are asked for
   std::vector<std::uint32_t> triangles_at_light_;
-  bool shadow_map_is_used_ = false;  ///< in this frame
+  std::optional<ShadowPlane> shadow_plane_;
+  bool shadow_plane_is_drawn_ = false;
+  std::int64_t shadow_map_bytes_ = 0;  ///< of those used in this frame
 
   std::shared_ptr<const scene::LightTexture> light_texture_;  ///< the one on the GPU
   gpu::Texture light_texture_texels_;

@@ -23,7 +23,10 @@ std::uint64_t next_id() {
 }  // namespace
 
 SceneBuffers::SceneBuffers(const gpu::Context& context, const scene::Geometry& geometry)
-    : geometry_(&geometry), id_(next_id()), clusters_(make_clusters(geometry)) {
+    : geometry_(&geometry),
+      id_(next_id()),
+      box_(scene::bounds(geometry)),
+      clusters_(make_clusters(geometry)) {
   std::vector<glm::uvec3> triangles;
   std::vector<std::uint32_t> materials;
   triangles.reserve(clusters_.order.size());
@@ -80,17 +83,21 @@ void SceneBuffers::draw_triangles(std::uint32_t first, std::uint32_t end) const 
 }
 
 void SceneBuffers::draw(const Pyramid& pyramid, std::span<const std::uint32_t> left_out) const {
+  draw([&](const scene::Box& box) { return may_touch(pyramid, box); }, left_out);
+}
+
+void SceneBuffers::draw(const std::function<bool(const scene::Box&)>& may_touch,
+                        std::span<const std::uint32_t> left_out) const {
   glBindVertexArray(vertex_array_.get());
   const auto& clusters = clusters_.clusters;
   for (std::size_t i = 0; i < clusters.size();) {
-    if (!may_touch(pyramid, clusters[i].box)) {
+    if (!may_touch(clusters[i].box)) {
       ++i;
       continue;
     }
     const std::size_t first = i;
     std::uint32_t triangles = 0;
-    for (; i < clusters.size() && may_touch(pyramid, clusters[i].box); ++i)
-      triangles += clusters[i].triangle_count;
+    for (; i < clusters.size() && may_touch(clusters[i].box); ++i) triangles += clusters[i].triangle_count;
     std::uint32_t begin = clusters[first].first_triangle;
     const std::uint32_t end = begin + triangles;
     const auto skipped = std::lower_bound(left_out.begin(), left_out.end(), begin);

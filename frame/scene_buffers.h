@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,14 @@ class SceneBuffers {
   /// @param left_out triangle numbers, sorted
   void draw(const Pyramid& pyramid, std::span<const std::uint32_t> left_out = {}) const;
 
+  /// The same for another region.
+  /// @param may_touch whether a box, world space, may reach into it: never wrongly "no"
+  void draw(const std::function<bool(const scene::Box&)>& may_touch,
+            std::span<const std::uint32_t> left_out = {}) const;
+
+  /// World space.
+  const scene::Box& box() const { return box_; }
+
   /// See frame::distance_to_geometry.
   double distance_to(glm::dvec3 point) const;
 
@@ -48,6 +57,7 @@ class SceneBuffers {
 
   const scene::Geometry* geometry_;
   std::uint64_t id_;
+  scene::Box box_;
   Clusters clusters_;
   gpu::Buffer positions_, triangles_, albedos_, material_of_triangle_, first_triangles_;
   gpu::TexelView position_texels_, triangle_texels_, albedo_texels_, material_texels_;

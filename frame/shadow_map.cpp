@@ -1,6 +1,7 @@
 #include "frame/shadow_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -12,6 +13,22 @@
 #include "spirv/frame/shadow_map_vert.h"
 
 namespace airlight::frame {
+
+void require_shadow_map(const gpu::Context& context, int size) {
+  const int limit = std::min(context.limits().max_texture_size, context.limits().max_viewport);
+  if (size > limit) {
+    throw scene::Error(
+        scene::ExitCode::driver, "--shadow-map",
+        fmt::format("{} texels are more than this driver's {} (GL_MAX_TEXTURE_SIZE)", size, limit),
+        "ask for a smaller one");
+  }
+}
+
+gpu::Pipeline make_shadow_map_program(bool is_plane) {
+  return gpu::Pipeline::graphics({.vertex = k_shadow_map_vert, .fragment = k_shadow_map_frag},
+                                 k_reversed_depth, std::array{gpu::Constant(0, is_plane ? 1 : 0)});
+}
+
 namespace {
 
 /// The axis of a face and those of its u and v: the same as in shaders/frame/shadow_cube.glsl.
@@ -76,18 +93,11 @@ CubeFaces needed_faces(const scene::CameraFrame& camera, glm::dvec3 light, doubl
 }
 
 ShadowMap::ShadowMap(const gpu::Context& context, int size) {
-  const int limit = std::min(context.limits().max_texture_size, context.limits().max_viewport);
-  if (size > limit) {
-    throw scene::Error(
-        scene::ExitCode::driver, "--shadow-map",
-        fmt::format("{} texels are more than this driver's {} (GL_MAX_TEXTURE_SIZE)", size, limit),
-        "ask for a smaller one");
-  }
+  require_shadow_map(context, size);
   depth_ = gpu::Texture(gpu::Format::depth32f, {size, size}, 6);
   for (int face = 0; face < 6; ++face)
     faces_.push_back(gpu::Framebuffer({}, gpu::Attachment(depth_, 0, face)));
-  program_ =
-      gpu::Pipeline::graphics({.vertex = k_shadow_map_vert, .fragment = k_shadow_map_frag}, k_reversed_depth);
+  program_ = make_shadow_map_program(false);
 }
 
 void ShadowMap::draw(const SceneBuffers& scene, glm::dvec3 light, std::span<const std::uint32_t> left_out,

@@ -8,6 +8,12 @@
 
 namespace airlight::frame {
 
+/// @throws scene::Error (driver) when the driver has no texture of that size.
+void require_shadow_map(const gpu::Context& context, int size);
+
+/// Draws depth on a face of a cube, the uniform at location 0, or on a plane (shadow_plane.h).
+gpu::Pipeline make_shadow_map_program(bool is_plane);
+
 /// Of the shadow map's cube, by their numbers (shaders/frame/shadow_cube.glsl).
 using CubeFaces = std::bitset<6>;
 
@@ -17,7 +23,8 @@ using CubeFaces = std::bitset<6>;
 /// @param reach how far beside those [rad]; π and more: all faces
 CubeFaces needed_faces(const scene::CameraFrame& camera, glm::dvec3 light, double reach);
 
-/// The distance from the light to the nearest surface in every direction: a cube of six depth images.
+/// The shadow map of a light that is near: the distance to the nearest surface in every direction, a cube of
+/// six depth images.
 ///
 /// A texel holds light_near / z for the nearest surface at z along its face's axis, 0 where there is none and
 /// on faces that are not drawn.

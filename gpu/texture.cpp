@@ -93,6 +93,18 @@ Texture::Texture(Format format, glm::ivec2 size, int layers, int levels)
   set_filter(name(), GL_NEAREST, GL_NEAREST_MIPMAP_NEAREST);
 }
 
+Texture Texture::array(Format format, glm::ivec2 size, int layers) {
+  Texture texture;
+  texture.handle_ = Handle<delete_texture>(create(GL_TEXTURE_2D_ARRAY));
+  texture.format_ = format;
+  texture.size_ = glm::ivec3(size, layers);
+  texture.levels_ = 1;
+  glTextureStorage3D(texture.name(), 1, format_info(format).internal_format, size.x, size.y, layers);
+  require_allocated(texture.bytes());
+  set_filter(texture.name(), GL_NEAREST, GL_NEAREST_MIPMAP_NEAREST);
+  return texture;
+}
+
 Texture Texture::volume(Format format, glm::ivec3 size, int levels) {
   Texture texture;
   texture.handle_ = Handle<delete_texture>(create(GL_TEXTURE_3D));

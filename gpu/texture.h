@@ -55,6 +55,9 @@ class Texture {
   /// An image, sampled as a 2D texture; with more than one layer as an array of them.
   Texture(Format format, glm::ivec2 size, int layers = 1, int levels = 1);
 
+  /// An array of any number of layers, one included.
+  static Texture array(Format format, glm::ivec2 size, int layers);
+
   /// A 3D texture.
   static Texture volume(Format format, glm::ivec3 size, int levels = 1);
 

@@ -4,6 +4,7 @@
 #include "scene/scene.h"
 
 namespace airlight::shaders {
+#include "media/layer.glsl"
 #include "media/medium.glsl"
 #include "media/row_end.glsl"
 #include "media/table_place.glsl"

@@ -12,6 +12,7 @@
 
 #include "spirv/media/phi_growth_comp.h"
 #include "spirv/media/vsv_riemann_frag.h"
+#include "spirv/media/vsv_sun_frag.h"
 #include "spirv/media/vsv_table_build_comp.h"
 #include "spirv/media/vsv_table_frag.h"
 
@@ -25,12 +26,32 @@ std::uint32_t table_rows(bool rough) {
 }
 constexpr float k_narrowest_lobe = 0.995f;
 
+bool lies_above(const scene::Medium& medium, const glm::dvec3& point) {
+  return medium.top && point.y > *medium.top;
+}
+
+/// One of shaders/media/layer.glsl.
+std::uint32_t layer_of(const scene::Medium& medium, const scene::Light& light, const glm::dvec3& eye) {
+  if (!medium.top) return shaders::k_no_layer;
+  const bool is_entered =
+      !scene::is_sun(light) && (lies_above(medium, eye) || lies_above(medium, light.position));
+  return is_entered ? shaders::k_layer_entered : shaders::k_layer_around;
+}
+
 /// Whether the integrand changes much within a cell of φ: a lobe of the phase function is narrow, or light
-/// reaches not farther than a few cells of φ.
-bool is_rough(const scene::Medium& medium, float distance) {
+/// reaches not farther than a few cells of φ. Those span, in all, not much more than D; where they do not
+/// count from a lamp that the layer does not hold, no more than the scene either.
+bool is_rough(const frame::FrameInputs& inputs, std::uint32_t layer) {
   constexpr float k_wide_lobe = 0.8f, k_deep = 8.0f;
-  const glm::vec3 depth = (medium.sigma_s + medium.sigma_a) * distance;
-  return std::abs(medium.g) > k_wide_lobe || std::max({depth.x, depth.y, depth.z}) > k_deep;
+  const scene::View& view = inputs.view;
+  double reach = glm::distance(inputs.light().position, view.camera.eye);
+  if (layer == shaders::k_layer_entered && !inputs.scene.box().empty()) {
+    const glm::dvec3 lower(inputs.scene.box().lower), upper(inputs.scene.box().upper);
+    reach = std::min(
+        reach, glm::length(glm::max(glm::abs(lower - view.camera.eye), glm::abs(upper - view.camera.eye))));
+  }
+  const glm::vec3 depth = (view.medium.sigma_s + view.medium.sigma_a) * static_cast<float>(reach);
+  return std::abs(view.medium.g) > k_wide_lobe || std::max({depth.x, depth.y, depth.z}) > k_deep;
 }
 
 /// How many cells a ray must cross for the table to serve it: 0, any will do, unless the view comes so near
@@ -38,7 +59,8 @@ bool is_rough(const scene::Medium& medium, float distance) {
 std::uint32_t direct_cells(const shaders::EpipolarBlock& space, const epipolar::Resolution& resolution) {
   constexpr std::uint32_t k_cells = 4;
   constexpr float k_widest = 1.8f;  // of φ_max / N_φ, at the largest growth (shaders/media/phi_growth.comp)
-  const shaders::Angle alpha_max = space.alpha_min + space.alpha_step * static_cast<float>(resolution.alpha);
+  const shaders::Angle alpha_max =
+      shaders::alpha_of_cell(space, shaders::Cell(static_cast<float>(resolution.alpha)));
   const shaders::Angle reach = k_cells * k_widest * shaders::k_half_turn / static_cast<float>(resolution.phi);
   return shaders::k_half_turn - alpha_max < reach ? k_cells : 0;
 }
@@ -52,7 +74,7 @@ void Vsv::load(const gpu::Context& context, const Variant& variant) {
   if (loaded_ == variant) return;
   const epipolar::Resolution& resolution = volume_.grid().resolution();
   const auto grid = epipolar::resolution_constants(resolution);
-  const std::array<gpu::Constant, 10> constants = {
+  const std::array<gpu::Constant, 11> constants = {
       grid[0],
       grid[1],
       grid[2],
@@ -62,18 +84,26 @@ void Vsv::load(const gpu::Context& context, const Variant& variant) {
       gpu::Constant(6, variant.direct),
       gpu::Constant(7, options_.integral == VsvIntegral::factored),
       gpu::Constant(8, options_.volume.populate == epipolar::Populate::conservative),
-      gpu::Constant(9, variant.rough)};
+      gpu::Constant(9, variant.rough),
+      gpu::Constant(10, variant.layer)};
   phi_growth_ = gpu::Pipeline::compute(k_phi_growth_comp, std::array{grid[0], constants[3]});
-  if (options_.integral != VsvIntegral::riemann) {
+  if (variant.sun) {
+    const std::uint32_t sum = options_.integral == VsvIntegral::table      ? 0
+                              : options_.integral == VsvIntegral::factored ? 1
+                                                                           : 2;
+    integrate_ =
+        frame::ScreenPass(k_vsv_sun_frag, std::array{grid[0], grid[1], grid[2], constants[3],
+                                                     gpu::Constant(6, sum), constants[8], constants[10]});
+  } else if (options_.integral != VsvIntegral::riemann) {
     build_table_ = gpu::Pipeline::compute(k_vsv_table_build_comp, constants);
     integrate_ = frame::ScreenPass(k_vsv_table_frag, constants);
     table_ =
-        gpu::Buffer(std::int64_t{table_rows(variant.rough)} * (resolution.phi + 1) * variant.channels * 8);
-    table_texels_ = {context.limits(), table_, gpu::Format::rg32f, "the table integral"};
+        gpu::Buffer(std::int64_t{table_rows(variant.rough)} * (resolution.phi + 2) * variant.channels * 16);
+    table_texels_ = {context.limits(), table_, gpu::Format::rgba32f, "the table integral"};
   } else {
-    integrate_ = frame::ScreenPass(
-        k_vsv_riemann_frag, std::array{grid[0], grid[1], grid[2], constants[3],
-                                       gpu::Constant(4, variant.light_textured), constants[8], constants[9]});
+    integrate_ = frame::ScreenPass(k_vsv_riemann_frag, std::array{grid[0], grid[1], grid[2], constants[3],
+                                                                  gpu::Constant(4, variant.light_textured),
+                                                                  constants[8], constants[9], constants[10]});
   }
   loaded_ = variant;
 }
@@ -85,25 +115,34 @@ std::optional<frame::Refusal> VsvOptions::refusal(const scene::View& view) const
                                       view.medium.g, k_narrowest_lobe),
                           "use a g nearer to 0, or the method reference"};
   }
-  const bool is_textured = std::any_of(view.lights.begin(), view.lights.end(),
-                                       [](const scene::Light& light) { return light.texture != nullptr; });
-  if (!is_textured || integral == VsvIntegral::riemann) return {};
-  return frame::Refusal{integral == VsvIntegral::table ? "integral=table" : "integral=factored",
-                        "it cannot take a light texture", "use vsv:integral=riemann"};
+  if (integral == VsvIntegral::riemann) return {};
+  const auto refuse = [&](std::string what) {
+    return frame::Refusal{integral == VsvIntegral::table ? "integral=table" : "integral=factored",
+                          std::move(what), "use vsv:integral=riemann"};
+  };
+  for (const scene::Light& light : view.lights) {
+    if (light.texture) return refuse("it cannot take a light texture");
+    if (layer_of(view.medium, light, view.camera.eye) == shaders::k_layer_entered)
+      return refuse("it cannot take a point light or an eye above a layer of fog");
+  }
+  return {};
 }
 
 void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) {
   assert(!options_.refusal(inputs.view));
-  const bool has_table = options_.integral != VsvIntegral::riemann;
+  const bool is_sun = scene::is_sun(inputs.light());
+  const bool has_table = !is_sun && options_.integral != VsvIntegral::riemann;
   const gpu::Texture* light_texture = inputs.light_texture();
 
   // Where the grid's rows lie, and what the shaders are specialised for.
-  const shaders::EpipolarBlock space = volume_.find_ranges(inputs);
+  const std::uint32_t layer = layer_of(inputs.view.medium, inputs.light(), inputs.view.camera.eye);
+  const bool rough = !is_sun && is_rough(inputs, layer);
+  const shaders::EpipolarBlock space = volume_.find_ranges(inputs, !(rough && has_table));
   const glm::vec3 sigma_t = inputs.view.medium.sigma_s + inputs.view.medium.sigma_a;
   const bool is_grey = sigma_t.x == sigma_t.y && sigma_t.y == sigma_t.z;
-  load(inputs.context, {static_cast<std::uint32_t>(inputs.view.medium.phase), is_grey ? 1u : 3u,
-                        direct_cells(space, volume_.grid().resolution()), light_texture != nullptr,
-                        is_rough(inputs.view.medium, space.distance)});
+  load(inputs.context,
+       {static_cast<std::uint32_t>(inputs.view.medium.phase), is_grey ? 1u : 3u,
+        direct_cells(space, volume_.grid().resolution()), light_texture != nullptr, rough, is_sun, layer});
   if (options_.phi_cells == PhiCells::growing)
     inputs.timer.time("ranges", [&] { phi_growth_.dispatch({1, 1, 1}); });
 
@@ -127,7 +166,7 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
 
 std::map<std::string, std::int64_t> Vsv::bytes() const {
   std::map<std::string, std::int64_t> bytes = volume_.bytes();
-  if (options_.integral != VsvIntegral::riemann) bytes["table"] = table_.bytes();
+  if (table_.bytes() > 0) bytes["table"] = table_.bytes();
   return bytes;
 }
 

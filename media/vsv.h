@@ -33,8 +33,9 @@ struct VsvOptions {
   bool needs_closed_parts() const { return volume.needs_closed_parts(); }
   bool needs_shadow_map() const { return volume.needs_shadow_map(); }
 
-  /// A phase function whose lobe is too narrow. And a light textured by direction, unless every sample is
-  /// looked at: the table depends on α and φ alone, and such a light on θ too.
+  /// A phase function whose lobe is too narrow. And, unless every sample is looked at, a light that depends
+  /// on θ too, where the table depends on α and φ alone: one textured by direction, or a point light that
+  /// shines into a layer of fog from above, or is seen from there.
   std::optional<frame::Refusal> refusal(const scene::View& view) const;
 };
 
@@ -58,7 +59,8 @@ class Vsv : public frame::Airlight {
   /// What the shaders are specialised for.
   struct Variant {
     std::uint32_t phase, channels, direct, light_textured;
-    bool rough;
+    bool rough, sun;
+    std::uint32_t layer;
     bool operator==(const Variant&) const = default;
   };
   void load(const gpu::Context& context, const Variant& variant);

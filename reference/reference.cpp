@@ -14,7 +14,7 @@ glm::dvec3 Reference::State::direction(const glm::dvec2& point) const {
 template <>
 ViewRay Reference::State::ray<ViewRay>(int x, int y) const {
   const glm::dvec3 direction = pixel_direction(x, y);
-  return make_view_ray(eye, direction, camera.right, visibility.first_hit(direction).distance, quarter_pixel,
+  return make_view_ray(eye, direction, camera.right, seen().first_hit(direction).distance, quarter_pixel,
                        top);
 }
 
@@ -25,6 +25,18 @@ SunRay Reference::State::ray<SunRay>(int x, int y) const {
   return make_sun_ray(*sun, direction, camera.right, visibility.first_hit(direction).distance, quarter_pixel,
                       eye_y);
 }
+
+namespace {
+
+/// Whether the light is at a thousand times the distance of all that the eye may see.
+bool is_far(const scene::Box& box, const glm::dvec3& eye, double distance) {
+  if (box.empty()) return false;
+  const glm::dvec3 reach =
+      glm::max(glm::abs(glm::dvec3(box.lower) - eye), glm::abs(glm::dvec3(box.upper) - eye));
+  return distance > 1000.0 * glm::length(reach);
+}
+
+}  // namespace
 
 Reference::State::State(const scene::Geometry& geometry, const scene::View& v, std::size_t light_index)
     : view(v),
@@ -39,6 +51,8 @@ Reference::State::State(const scene::Geometry& geometry, const scene::View& v, s
       // The tangent size of a pixel at the image's centre stands for its angle.
       quarter_pixel(0.25 * 2.0 * camera.half_height / view.size.y) {
   if (view.medium.top) top = *view.medium.top - origin.y;
+  if (!sun && is_far(box, camera.eye, glm::length(eye)))
+    around_eye.emplace(triangles, camera.eye, camera.eye, scene::direction_to(light, camera.eye));
   if (!sun && light.texture) light_texture.emplace(*light.texture);
 }
 
@@ -59,10 +73,12 @@ SurfaceImage Reference::surfaces(const Progress& progress) const {
     return [&](int y) {
       for (int x = 0; x < state.view.size.x; ++x) {
         const glm::dvec3 direction = state.pixel_direction(x, y);
-        const Visibility::Hit hit = state.visibility.first_hit(direction);
+        const Visibility::Hit hit = state.seen().first_hit(direction);
         if (hit.distance == 0.0) continue;
         image.distance[state.index(x, y)] = static_cast<float>(hit.distance);
-        const bool is_lit = state.visibility.surface_lit(hit, direction);
+        const glm::dvec3 towards =
+            scene::direction_to(state.light, state.camera.eye + hit.distance * direction);
+        const bool is_lit = state.seen().surface_lit(hit, direction, towards);
         image.visibility[state.index(x, y)] = is_lit ? 1.0f : 0.0f;
       }
     };

@@ -19,12 +19,14 @@ struct Reference::State {
   scene::Light light;
   scene::CameraFrame camera;
   Triangles triangles;
-  scene::Box box;                            ///< of the triangles, world space [m]
-  std::optional<glm::dvec3> sun;             ///< unit direction to the light where that is a sun
-  glm::dvec3 origin;                         ///< the light, or the eye under a sun, world space [m]
-  glm::dvec3 eye;                            ///< relative to the origin [m]
-  std::optional<double> top;                 ///< of the medium, height over the origin [m]
-  Visibility visibility;                     ///< of `triangles`
+  scene::Box box;                 ///< of the triangles, world space [m]
+  std::optional<glm::dvec3> sun;  ///< unit direction to the light where that is a sun
+  glm::dvec3 origin;              ///< the light, or the eye under a sun, world space [m]
+  glm::dvec3 eye;                 ///< relative to the origin [m]
+  std::optional<double> top;      ///< of the medium, height over the origin [m]
+  Visibility visibility;          ///< of `triangles`
+  /// The same around the eye, where the light is so far that single precision around it loses the scene.
+  std::optional<Visibility> around_eye;
   double quarter_pixel;                      ///< the smallest α [rad]
   std::optional<LightLookup> light_texture;  ///< where the light has one
 
@@ -37,6 +39,9 @@ struct Reference::State {
   /// The view ray of a pixel, up to its first surface: a `ViewRay` of a point light, a `SunRay` of a sun.
   template <class Ray>
   Ray ray(int x, int y) const;
+
+  /// Knows the first surfaces.
+  const Visibility& seen() const { return around_eye ? *around_eye : visibility; }
 
   RunIntegrals run_integrals(int refinement = 1) const {
     return {light, view.medium, light_texture ? &*light_texture : nullptr, refinement};

@@ -184,15 +184,15 @@ Visibility::Hit Visibility::first_hit(const glm::dvec3& direction) const {
   return {agrees ? exact : single, ray.hit.primID};
 }
 
-bool Visibility::surface_lit(const Hit& hit, const glm::dvec3& direction) const {
+bool Visibility::surface_lit(const Hit& hit, const glm::dvec3& direction, const glm::dvec3& towards) const {
   const glm::dvec3 point = embree_->eye + hit.distance * direction;
-  const std::optional<glm::dvec3>& sun = embree_->sun;
+  const bool sun = embree_->sun.has_value();
   const double length = sun ? 0.0 : glm::length(point);  // of the light ray where that ends
   if (!sun && length == 0.0) return true;
 
   const Corners corners = embree_->corners(hit.triangle);
   const glm::dvec3 n = normal(corners);
-  const double light_height = glm::dot(n, sun ? *sun : -corners[0]),
+  const double light_height = glm::dot(n, sun ? towards : -corners[0]),
                eye_height = glm::dot(n, embree_->eye - corners[0]);
   const bool is_between = light_height * eye_height < 0.0;
   const double clearance = k_rounding * (length + hit.distance);
@@ -204,7 +204,7 @@ bool Visibility::surface_lit(const Hit& hit, const glm::dvec3& direction) const 
   surface.embree = embree_.get();
   surface.point = point;
   surface.clearance = clearance;
-  const glm::vec3 from(sun ? point : glm::dvec3(0.0)), along(sun ? *sun : point / length);
+  const glm::vec3 from(sun ? point : glm::dvec3(0.0)), along(sun ? towards : point / length);
   RTCRay ray{};
   ray.org_x = from.x;
   ray.org_y = from.y;

@@ -61,7 +61,8 @@ class Visibility {
   /// its coplanar neighbours, and surfaces seen edge-on by the light of shadows on themselves without any
   /// offset along the ray.
   /// @param direction that `first_hit` was asked for
-  bool surface_lit(const Hit& hit, const glm::dvec3& direction) const;
+  /// @param towards the light, from that point: of unit length
+  bool surface_lit(const Hit& hit, const glm::dvec3& direction, const glm::dvec3& towards) const;
 
   /// Bit i is set where ray i of the first `count` reaches its sample.
   std::uint32_t lit(const LightRays& rays, int count, RayMode mode) const;

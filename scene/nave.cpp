@@ -139,7 +139,7 @@ Scene make_nave() {
   scene.medium.sigma_s = glm::vec3(0.02f);
   scene.medium.phase = PhaseFunction::henyey_greenstein;
   scene.medium.g = 0.5f;
-  scene.exposure = 0.4f;
+  scene.exposure = 0.8f;
   return scene;
 }
 

@@ -7,14 +7,15 @@
 
 namespace airlight::surface_shadows {
 
-ShadowMapLookup::ShadowMapLookup() : pass_(k_shadow_map_lookup_frag) {}
-
 void ShadowMapLookup::query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) {
-  const frame::ShadowMap& shadow_map = inputs.shadow_map(0.0);
+  const gpu::Texture& shadow_map = inputs.shadow_map(0.0);
+  const bool is_plane = inputs.shadow_map_is_plane();
+  auto& pass = passes_[is_plane ? 1 : 0];
+  if (!pass) pass.emplace(k_shadow_map_lookup_frag, std::array{gpu::Constant(0, is_plane ? 1 : 0)});
   inputs.timer.time("surface_query", [&] {
     inputs.surfaces.bind_sampler(shaders::k_surface_unit);
-    shadow_map.depth().bind_sampler(shaders::k_shadow_map_unit);
-    pass_.run({visibility});
+    shadow_map.bind_sampler(shaders::k_shadow_map_unit);
+    pass->run({visibility});
   });
 }
 

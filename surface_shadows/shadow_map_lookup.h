@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "frame/method.h"
 #include "frame/screen_pass.h"
 
@@ -10,11 +13,10 @@ namespace airlight::surface_shadows {
 /// Schüler, "High Quality Shadow Mapping", ShaderX4, 2006.
 class ShadowMapLookup : public frame::SurfaceShadow {
  public:
-  ShadowMapLookup();
   void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override;
 
  private:
-  frame::ScreenPass pass_;
+  std::array<std::optional<frame::ScreenPass>, 2> passes_;  ///< by: the map is on a plane
 };
 
 struct ShadowMapLookupOptions {

@@ -5,22 +5,24 @@
 // Deviation: nothing is split. The triangle is cut by the two half-planes that bound one cell of θ, its slab, one cell after
 // another, so that a triangle may wrap over θ = ±π, hold the epipole or pass behind the eye or the light. And no
 // edge is taken to be straight that is not: seen along the slab (coordinates z along the axis, x outwards), lines are lines,
-// and the cells of α and φ are bounded by lines through the eye and the light. What is left of the curvature, that
-// x = ρ cos(θ − θ_j) stands for the distance ρ from the axis, is bounded by x ≤ ρ ≤ x / cos(half a slab).
+// and the cells of α and φ are bounded by lines through the eye and the light; a sun's light rays are lines too, x = s. What is
+// left of the curvature, that x = ρ cos(θ − θ_j) stands for the distance ρ from the axis, is bounded by x ≤ ρ ≤ x / cos(half a slab).
 //
 // All lengths and angles carry a slack, the most that arithmetic misplaces them; it makes the result larger, never smaller. It
 // covers any arithmetic that GLSL allows (arithmetic.glsl): with e = 2⁻²³, sums and products are right to e, quotients to 2.5 e,
 // square roots to 4.5 e, sine and cosine to 2 e, angle_of to 10 e, and sums may be taken in any order, with products fused into
-// them or not. M is the largest of the lengths from the eye to the corners and to the light.
+// them or not. M is the largest of the lengths from the eye to the corners and to the light, a sun left out.
 //   positions  A corner's coordinates are right to 6 e M; turned into a slab, to 13 e M across the axis and 8 e M along it; where
 //              an edge, up to 2 M long, is clipped, to 25 e M, and to 30 e M across a light ray; clipped again between two light
 //              rays, to 37 e M. A distance from a light ray takes 7 e M more.
-//   light rays The direction of a boundary of cells is right to 31 e, at φ = π, and 3 e for sine and cosine.
+//   light rays The direction of a boundary of cells is right to 31 e, at φ = π, and 3 e for sine and cosine; a sun's s, to 10 e of it.
 //   θ          A border of cells is the solution of an equation that is right to 16 e, whose slope is that of the spacing, at least
 //              1 − g. The middle of a slab and its ends, sums of angles up to 2π, take 20 e more. The angle of a corner from
 //              the middle of the range is right to 55 e, the plane at an angle, times the spacing's step, to 28 e.
-//   orders     angle_order is right to 6 e, angle_from_order to 14 e, and angles are between once and twice their order.
-//   cells      cell_of_phi is right to 18 e of the cell, a cell of α, times its width, to 11 e.
+//   orders     angle_order is right to 6 e, angle_from_order to 14 e, and angles are between once and twice their order. What
+//              orders a sun's light rays is a position, x, and has its slack alone.
+//   cells      place_of_phi is right to 18 e of the place, at most 1, cell_of_phi, times a cell's share of the places, to 4 e more; a
+//              cell of α, times its width, to 11 e.
 #ifndef AIRLIGHT_CONSERVATIVE_GLSL
 #define AIRLIGHT_CONSERVATIVE_GLSL
 #include "epipolar/grid.glsl"
@@ -43,7 +45,9 @@ CONST Angle k_border_slack = Angle(7e-6f);
 CONST Angle k_theta_slack = Angle(1e-5f);
 // Of orders: 6 e, 14 e and, for α, 11 e.
 CONST Order k_order_slack = Order(4e-6f);
-// Of the number of cells in φ: 18 e.
+// Of the number of cells in α: 5 e and, of roots, 5 e more.
+CONST float k_row_slack = 2e-6f;
+// Of places in the range of φ: 22 e.
 CONST float k_cell_slack = 3e-6f;
 
 // What arithmetic may misplace a point of the triangle by [m].
@@ -125,7 +129,8 @@ FUNCTION uint plane_at(IN(PlaneSpan) span, uint index) {
 }
 
 // The outline of the part of a triangle in a slab, seen along it: segments (x, w) to (x, w), with x outwards from the
-// axis and w towards the eye from the light. A segment that is not there has x < 0.
+// axis and w along it, from the light towards the eye; of a sun, from the eye away from the sun. A segment that is not there has
+// x < 0.
 struct SlabOutline {
   vec4 segment[5];
 };
@@ -148,7 +153,7 @@ FUNCTION vec4 part_of(IN(vec3) a, IN(vec3) b, IN(vec2) range) {
   return vec4(max(from.x, 0.0f), from.y, max(to.x, 0.0f), to.y);
 }
 
-// `a`, `b`, `c`: the corners as (x, w, y) from the light, with y at right angles to the slab's middle plane. `tangent`: of half
+// `a`, `b`, `c`: the corners as (x, w, y), with y at right angles to the slab's middle plane. `tangent`: of half
 // the slab's angle.
 FUNCTION SlabOutline outline_in_slab(IN(vec3) a, IN(vec3) b, IN(vec3) c, float tangent, float slack) {
   SlabOutline outline;
@@ -201,10 +206,10 @@ FUNCTION float curvature_slack(IN(SlabOutline) outline, float tangent) {
   return 0.5f * farthest * tangent * tangent;
 }
 
-// The least and the largest angle_order of φ over an outline: φ is extreme where its segments end. The first is larger than the
-// second where nothing is there.
-FUNCTION vec2 phi_order_bounds(IN(SlabOutline) outline, float slack) {
-  vec2 bounds = vec2(3.0f, -1.0f);
+// The least and the largest order (phi_order_at) of φ over an outline: φ is extreme where its segments end. The first is larger than
+// the second where nothing is there.
+FUNCTION vec2 phi_order_bounds(IN(EpipolarBlock) space, IN(SlabOutline) outline, float slack) {
+  vec2 bounds = vec2(1e30f, -1.0f);
   for (int i = 0; i < 5; ++i) {
     vec4 s = outline.segment[i];
     if (s.x >= 0.0f) {
@@ -213,33 +218,46 @@ FUNCTION vec2 phi_order_bounds(IN(SlabOutline) outline, float slack) {
         float w = end == 0 ? s.y : s.w;
         float inner = max(x - slack, 0.0f);
         float outer = x + slack;
-        bounds.x = min(bounds.x, float(min(angle_order(inner, w + slack), angle_order(outer, w + slack))));
-        bounds.y = max(bounds.y, float(max(angle_order(inner, w - slack), angle_order(outer, w - slack))));
+        if (is_sun(space)) {
+          bounds = vec2(min(bounds.x, inner), max(bounds.y, outer));
+        } else {
+          bounds.x = min(bounds.x, float(min(angle_order(inner, w + slack), angle_order(outer, w + slack))));
+          bounds.y = max(bounds.y, float(max(angle_order(inner, w - slack), angle_order(outer, w - slack))));
+        }
       }
     }
   }
   return bounds;
 }
 
-// The least angle_order of α over the part of an outline between two light rays, given by cosine and sine of their φ; 3 where
-// nothing is there.
-FUNCTION Order least_alpha_order(IN(SlabOutline) outline, IN(vec2) from_ray, IN(vec2) to_ray, float light_distance,
+// A boundary of cells of φ: how far beyond it a point (x, w) lies is ray.x · x − ray.y · w − ray.z [m]. A lamp's light ray leads from
+// (0, 0) along (sin φ, cos φ), a sun's is parallel to the axis.
+FUNCTION vec3 boundary_ray(IN(EpipolarBlock) space, IN(PhiCells) cells, uint k) {
+  Angle phi = phi_of_cell(cells, Cell(float(k)));
+  return is_sun(space) ? vec3(1.0f, 0.0f, float(phi)) : vec3(cosine(phi), sine(phi), 0.0f);
+}
+
+FUNCTION float distance_beyond(IN(vec3) ray, float x, float w) { return x * ray.x - w * ray.y - ray.z; }
+
+// The least angle_order of α over the part of an outline between two light rays; 3 where nothing is there.
+FUNCTION Order least_alpha_order(IN(EpipolarBlock) space, IN(SlabOutline) outline, IN(vec3) from_ray, IN(vec3) to_ray,
                                  float slack) {
   Order least = Order(3.0f);
   for (int i = 0; i < 5; ++i) {
     vec4 s = outline.segment[i];
-    // The part of the segment between the two rays. The light lies at (0, 0): no farther from it than |x| + |w|.
+    // The part of the segment between the two rays. From where a lamp's start, (0, 0), it is no farther than |x| + |w|; a sun's s
+    // is no larger than x.
     float from_slack = slack + k_ray_slack * (s.x + abs(s.y));
     float to_slack = slack + k_ray_slack * (s.z + abs(s.w));
-    vec2 range = clip(vec2(0.0f, 1.0f), s.x * from_ray.x - s.y * from_ray.y + from_slack,
-                      s.z * from_ray.x - s.w * from_ray.y + to_slack);
-    range = clip(range, s.y * to_ray.y - s.x * to_ray.x + from_slack, s.w * to_ray.y - s.z * to_ray.x + to_slack);
+    vec2 range = clip(vec2(0.0f, 1.0f), distance_beyond(from_ray, s.x, s.y) + from_slack,
+                      distance_beyond(from_ray, s.z, s.w) + to_slack);
+    range = clip(range, from_slack - distance_beyond(to_ray, s.x, s.y), to_slack - distance_beyond(to_ray, s.z, s.w));
     // α is extreme at its ends; z is along the axis from the eye.
     if (s.x >= 0.0f && range.x <= range.y) {
       for (int end = 0; end < 2; ++end) {
         float t = end == 0 ? range.x : range.y;
         float x = s.x + t * (s.z - s.x);
-        float z = light_distance - (s.y + t * (s.w - s.y));
+        float z = space.distance - (s.y + t * (s.w - s.y));
         float nearer = z + slack > 0.0f ? max(x - slack, 0.0f) : x + slack;
         least = min(least, angle_order(nearer, z + slack));
       }
@@ -275,8 +293,8 @@ struct SlabPart {
   uint end_ray;    // … to before here
 };
 
-// A corner, relative to the eye, as outline_in_slab takes it: outwards in the slab's middle plane, from the light towards the
-// eye, and at right angles to that plane.
+// A corner, relative to the eye, as outline_in_slab takes it: outwards in the slab's middle plane, along the axis (SlabOutline), and at
+// right angles to that plane.
 FUNCTION vec3 seen_along_slab(IN(EpipolarBlock) space, IN(vec3) corner, float cosine, float sine) {
   return vec3(corner.x * cosine + corner.y * sine, space.distance - corner.z, corner.y * cosine - corner.x * sine);
 }
@@ -297,28 +315,22 @@ FUNCTION SlabPart part_in_slab(IN(EpipolarBlock) space, IN(PhiCells) cells, IN(V
                                  seen_along_slab(space, triangle.c, cos_theta, sin_theta), tangent, triangle.slack);
   part.slack = triangle.slack + curvature_slack(part.outline, tangent);
   // The cells of φ that this spans.
-  vec2 orders = phi_order_bounds(part.outline, part.slack);
-  Angle from_phi = angle_from_order(clamp(Order(orders.x) - k_order_slack, Order(0.0f), Order(2.0f)));
-  Angle to_phi = angle_from_order(clamp(Order(orders.y) + k_order_slack, Order(0.0f), Order(2.0f)));
-  Cell first = floor(cell_of_phi(cells, from_phi) - k_cell_slack * cells.count);
-  Cell last = floor(cell_of_phi(cells, to_phi) + k_cell_slack * cells.count);
+  vec2 orders = phi_order_bounds(space, part.outline, part.slack);
+  Order order_slack = is_sun(space) ? Order(0.0f) : k_order_slack;
+  Cell cell_slack = Cell(k_cell_slack / cells.per_cell);
+  Cell first = floor(cell_of_phi(cells, phi_from_order(space, Order(orders.x) - order_slack)) - cell_slack);
+  Cell last = floor(cell_of_phi(cells, phi_from_order(space, Order(orders.y) + order_slack)) + cell_slack);
   part.first_ray = uint(clamp(first, Cell(0.0f), cells.count));
   part.end_ray = orders.x > orders.y ? 0u : uint(clamp(last + Cell(1.0f), Cell(0.0f), cells.count));
   return part;
 }
 
-// Cosine and sine of φ at a boundary of cells.
-FUNCTION vec2 boundary_ray(IN(PhiCells) cells, uint k) {
-  Angle phi = phi_of_cell(cells, Cell(float(k)));
-  return vec2(cosine(phi), sine(phi));
-}
-
 // The cell in α nearest the light that the part touches between two light rays; N_α if none.
-FUNCTION uint first_touched_cell(IN(EpipolarBlock) space, IN(SlabPart) part, IN(vec2) from_ray, IN(vec2) to_ray,
+FUNCTION uint first_touched_cell(IN(EpipolarBlock) space, IN(SlabPart) part, IN(vec3) from_ray, IN(vec3) to_ray,
                                  uint alpha_count) {
-  Order order = least_alpha_order(part.outline, from_ray, to_ray, space.distance, part.slack);
+  Order order = least_alpha_order(space, part.outline, from_ray, to_ray, part.slack);
   Angle alpha = angle_from_order(clamp(order - k_order_slack, Order(0.0f), Order(2.0f)));
-  float i = floor((alpha - space.alpha_min) / space.alpha_step);
+  float i = floor(float(cell_of_alpha(space, alpha)) - k_row_slack * float(alpha_count));
   // An order may be rounded to a little more than 2; 3 says that nothing is there.
   return order > Order(2.5f) ? alpha_count : uint(clamp(i, 0.0f, float(alpha_count)));
 }

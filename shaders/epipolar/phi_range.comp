@@ -4,8 +4,8 @@
 #include "epipolar/uniforms.glsl"
 #include "epipolar/phi_range.glsl"
 
-// Finds the largest φ at which a view ray of this frame ends (section 4.3). Many pixels an invocation, so that few
-// atomics remain.
+// Finds the largest φ at which a view ray of this frame ends in each half-plane (section 4.3, for each of them). Many pixels an
+// invocation, and neighbours of one half-plane together, so that few atomics remain.
 layout(local_size_x = 64) in;
 layout(binding = k_surface_unit) uniform sampler2D surface_image;
 
@@ -15,15 +15,26 @@ void main() {
   uvec2 size = uvec2(camera.image_width, camera.image_height);
   uint x = gl_GlobalInvocationID.x;
   if (x >= size.x) return;
+  uint plane = 0u;
   float largest = 0.0;
   uint end = min((gl_GlobalInvocationID.y + 1u) * k_rows, size.y);
   for (uint y = gl_GlobalInvocationID.y * k_rows; y < end; ++y) {
     vec2 pixel = vec2(x, y);
-    EyeAngle angle = eye_angle(space, view_ray(camera, pixel + 0.5), quarter_pixel(camera));
+    // α and θ from the same two coordinates across the axis: a range need not have every digit near it.
+    vec3 direction = view_ray(camera, pixel + 0.5);
+    vec2 across = vec2(dot(direction, space.u), dot(direction, space.f));
+    float along = dot(direction, space.axis);
+    float least = quarter_pixel(camera);  // as eye_angle has it
+    EyeAngle angle = EyeAngle(max(length(across), along > 0.0 ? least : min(least, 1e-5)), along);
     float t = texelFetch(surface_image, ivec2(pixel), 0).w;
-    float order = t > 0.0 ? angle_order(t * angle.sine, space.distance - t * angle.cosine)
-                          : angle_order(angle.sine, -angle.cosine);  // φ = π − α where nothing is hit
+    float order = t > 0.0 ? phi_order_at(space, angle, t) : phi_order_of_open_end(space, angle);
+    uint j = theta_cell(space, angle_of(across.y, across.x), k_theta_count);
+    if (j != plane) {
+      if (largest > uintBitsToFloat(seen[plane])) atomicMax(seen[plane], floatBitsToUint(largest));
+      plane = j;
+      largest = 0.0;
+    }
     largest = max(largest, order);
   }
-  atomicMax(largest_order, floatBitsToUint(largest));
+  if (largest > 0.0) atomicMax(seen[plane], floatBitsToUint(largest));
 }

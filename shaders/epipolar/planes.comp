@@ -11,5 +11,5 @@ void main() {
   uint j = gl_GlobalInvocationID.x;
   if (j >= k_theta_count) return;
   float theta = theta_centre(space, j);
-  planes[j] = vec4(cosine(theta), sine(theta), theta_of_plane(space, float(j)), theta_of_plane(space, float(j + 1u)));
+  planes[2u * j] = vec4(cosine(theta), sine(theta), theta_of_plane(space, float(j)), theta_of_plane(space, float(j + 1u)));
 }

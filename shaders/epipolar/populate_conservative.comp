@@ -6,7 +6,6 @@
 #include "epipolar/conservative.glsl"
 #include "epipolar/resolution.glsl"
 #include "epipolar/phi_range.glsl"
-#include "epipolar/planes.glsl"
 
 #define TRIANGLE VoxelTriangle
 #include "epipolar/triangle_queue.glsl"
@@ -22,17 +21,17 @@ VoxelTriangle fetch_triangle(uint index) {
 
 // Notes the part of a triangle in the cell of the `index`th of its planes.
 void voxelize_in_plane(VoxelTriangle triangle, uint index) {
-  PhiCells cells = phi_cells();
   uint plane = plane_at(triangle.planes, index);
-  vec2 borders = texelFetch(planes, int(plane)).zw;
+  PhiCells cells = phi_cells(plane);
+  vec2 borders = plane_borders(plane);
   uint slabs = slabs_per_plane(space);
   float slab_step = (borders.y - borders.x) / float(slabs);
   for (uint slab = 0u; slab < slabs; ++slab) {
     float from = borders.x + float(slab) * slab_step;
     SlabPart part = part_in_slab(space, cells, triangle, from, from + slab_step);
-    vec2 from_ray = boundary_ray(cells, part.first_ray);
+    vec3 from_ray = boundary_ray(space, cells, part.first_ray);
     for (uint k = part.first_ray; k < part.end_ray; ++k) {
-      vec2 to_ray = boundary_ray(cells, k + 1u);
+      vec3 to_ray = boundary_ray(space, cells, k + 1u);
       uint first = first_touched_cell(space, part, from_ray, to_ray, k_alpha_count);
       if (first < k_alpha_count) atomicMin(first_shadowed[plane * k_phi_count + k], first);
       from_ray = to_ray;

@@ -15,7 +15,6 @@
 #include "epipolar/resolution.glsl"
 #include "epipolar/window.glsl"
 #include "epipolar/phi_range.glsl"
-#include "epipolar/planes.glsl"
 #define TRIANGLE ScreenTriangle
 #include "epipolar/triangle_queue.glsl"
 
@@ -93,7 +92,7 @@ vec2 alpha_bounds(ScreenTriangle t, float cosine, float sine) {
 
 // α of a row, at the centre of its cell.
 EyeAngle row_angle(uint i) {
-  PRECISE float alpha = space.alpha_min + (float(i) + 0.5) * space.alpha_step;
+  PRECISE float alpha = alpha_of_cell(space, float(i) + 0.5);
   return EyeAngle(sine(alpha), cosine(alpha));
 }
 
@@ -106,14 +105,14 @@ vec3 row_ray(EyeAngle angle, float plane_cosine, float plane_sine) {
 // Flips a bit for each row of the triangle's `index`th plane whose view ray crosses it.
 void voxelize_in_plane(ScreenTriangle t, uint index) {
   uint j = plane_at(t.planes, index);
-  float plane_cosine = texelFetch(planes, int(j)).x;
-  float plane_sine = texelFetch(planes, int(j)).y;
+  float plane_cosine = plane_direction(j).x;
+  float plane_sine = plane_direction(j).y;
   vec2 bounds = alpha_bounds(t, plane_cosine, plane_sine);
-  uint first = alpha_cell(space, bounds.x - space.alpha_step, k_alpha_count);
-  uint end = bounds.x > bounds.y ? 0u : alpha_cell(space, bounds.y + space.alpha_step, k_alpha_count) + 1u;
+  uint first = uint(max(int(alpha_cell(space, bounds.x, k_alpha_count)) - 1, 0));
+  uint end = bounds.x > bounds.y ? 0u : min(alpha_cell(space, bounds.y, k_alpha_count) + 2u, k_alpha_count);
   uint plane = j - window_first_plane;
   if (j < window_first_plane || plane >= window_planes) end = 0u;
-  PhiCells cells = phi_cells();
+  PhiCells cells = phi_cells(j);
   for (uint i = first; i < end; ++i) {
     EyeAngle angle = row_angle(i);
     vec3 ray = row_ray(angle, plane_cosine, plane_sine);

@@ -2,27 +2,41 @@
 #extension GL_GOOGLE_include_directive : require
 #include "epipolar/uniforms.glsl"
 #include "frame/shadow_cube.glsl"
+#include "frame/shadow_plane.glsl"
 #include "epipolar/resolution.glsl"
 #include "epipolar/phi_range.glsl"
-#include "epipolar/planes.glsl"
 
 // For each light ray (θ_j, φ_k), the nearest occluder of the shadow map (section 4.1.3).
 layout(local_size_x = 16, local_size_y = 4) in;
 layout(binding = k_shadow_map_unit) uniform sampler2DArray shadow_map;
 layout(std430, binding = k_first_shadowed_storage) writeonly buffer FirstShadowed { uint first_shadowed[]; };
 
-const uint k_planes = 16u;  // an invocation's: what depends on φ alone is worked out once
+layout(constant_id = 3) const bool k_plane = false;  // the shadow map is on a plane
+
+const uint k_planes = 16u;  // an invocation's
 
 void main() {
   uint k = gl_GlobalInvocationID.x;
   if (k >= k_phi_count) return;
-  float phi = phi_of_cell(phi_cells(), float(k) + 0.5);
-  float sin_phi = sine(phi);
-  float cos_phi = cosine(phi);
   uint end = min((gl_GlobalInvocationID.y + 1u) * k_planes, k_theta_count);
   for (uint j = gl_GlobalInvocationID.y * k_planes; j < end; ++j) {
-    vec2 plane = texelFetch(planes, int(j)).xy;
+    float phi = phi_of_cell(phi_cells(j), float(k) + 0.5);
+    vec2 plane = plane_direction(j);
     vec3 outward = plane.x * space.u + plane.y * space.f;
+    if (k_plane) {
+      float across = crossing_of(space, phi);
+      vec2 uv = plane_uv(light, across * outward);
+      ivec2 texel = cube_texel(uv, light.shadow_map_size);
+      float stored = texelFetch(shadow_map, ivec3(texel, 0), 0).r;
+      // The map keeps view rays, and with them α.
+      uint cell = first_shadowed_cell(space, angle_of(across, plane_z(light, stored)), k_alpha_count);
+      // Nothing that matters lies on light rays that pass the image by, nor on those that part from the eye.
+      bool is_on_map = across >= 0.0 && max(abs(uv.x), abs(uv.y)) <= 1.0;
+      first_shadowed[j * k_phi_count + k] = is_on_map && stored != 0.0 ? cell : k_alpha_count;
+      continue;
+    }
+    float sin_phi = sine(phi);
+    float cos_phi = cosine(phi);
     CubePoint point = cube_point(sin_phi * outward - cos_phi * space.axis);
     float depth = texelFetch(shadow_map, ivec3(cube_texel(point.uv, light.shadow_map_size), point.face), 0).r;
     float r = light.near / (max(depth, 1e-30) * point.depth);  // along the unit light ray

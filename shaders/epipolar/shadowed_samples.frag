@@ -15,10 +15,10 @@ void main() {
   vec3 direction = view_ray(camera, vec2(pixel) + 0.5);
   EyeAngle angle = eye_angle(space, direction, quarter_pixel(camera));
   float t = texelFetch(surface_image, pixel, 0).w;
-  float phi_end = t > 0.0 ? phi_at(space, angle, t) : alpha_complement(angle);
-  int end = int(clamp(ceil(cell_of_phi(phi_cells(), phi_end) - 0.5), 0.0, float(k_phi_count)));
+  float phi_end = t > 0.0 ? phi_at(space, angle, t) : phi_of_open_end(space, angle);
   uint i = alpha_cell(space, alpha_of(angle), k_alpha_count);
   uint j = theta_cell(space, theta_of(space, direction), k_theta_count);
+  int end = int(clamp(ceil(cell_of_phi(phi_cells(j), phi_end) - 0.5), 0.0, float(k_phi_count)));
   int row = int((j * k_alpha_count + i) * k_texels_per_ray);
   int count = 0;
   for (int first = 0; first < end; first += 128) {

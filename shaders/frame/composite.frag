@@ -24,12 +24,17 @@ void main() {
   if (seen != 0u && visibility != vec3(0.0)) {
     vec4 surface = texelFetch(surface_image, pixel, 0);
     float distance = surface.w;
-    vec3 to_light = light.from_eye - distance * view_ray(camera, vec2(pixel) + 0.5);
-    float r = length(to_light);
-    float cosine = dot(surface.xyz, to_light) / max(r, 1e-30);
+    vec3 direction = view_ray(camera, vec2(pixel) + 0.5);
+    vec3 point = distance * direction;
+    vec3 way = to_light(light, point);
+    float r = length(way);
+    float cosine = dot(surface.xyz, way) / max(r, 1e-30);
+    vec2 seen_part = part_in_medium(medium, direction.y, distance);
+    float path = max(seen_part.y - seen_part.x, 0.0) + light_path(medium, light, point);
     vec3 albedo = texelFetch(albedos, int(texelFetch(material_of_triangle, int(seen) - 1).r)).rgb;
-    vec3 colour = k_light_textured != 0u ? light_colour(light_texture, -to_light) : vec3(1.0);
+    vec3 colour = k_light_textured != 0u ? light_colour(light_texture, -way) : vec3(1.0);
+    // A sun's `way` is of unit length.
     radiance.rgb += visibility * max(cosine, 0.0) * albedo / k_pi * light.intensity / max(r * r, 1e-20) * colour *
-                exp(-medium.sigma_t * (r + distance));
+                exp(-medium.sigma_t * path);
   }
 }

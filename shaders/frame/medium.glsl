@@ -1,7 +1,8 @@
-// The homogeneous medium, as the shaders see it.
+// The homogeneous medium, all of space or a layer of it, as the shaders see it.
 #ifndef AIRLIGHT_MEDIUM_BLOCK_GLSL
 #define AIRLIGHT_MEDIUM_BLOCK_GLSL
-#include "shared.glsl"
+#include "arithmetic.glsl"
+#include "frame/light.glsl"
 
 // A uniform block (std140), written once a frame by frame/blocks.cpp.
 struct MediumBlock {
@@ -9,6 +10,34 @@ struct MediumBlock {
   float g;                // mean cosine of Henyey-Greenstein, alone or as a part of Hoffman-Preetham
   vec3 sigma_t;           // extinction coefficient [1/m]
   float rayleigh_weight;  // of Hoffman-Preetham: the part that Rayleigh's function has, 0 to 1
+  float top;              // of the layer above the eye [m]; k_no_top without
+  float unused_0, unused_1, unused_2;
 };
+
+CONST float k_no_top = 1e30f;
+CONST float k_endless = 1e30f;  // [m], a distance beyond all
+
+FUNCTION bool is_layer(IN(MediumBlock) medium) { return medium.top < k_no_top; }
+
+// Where a unit view ray that ends after `length` [m] enters the medium, and where it leaves it; the first is not less where it never
+// enters. `rise`: the ray's y.
+FUNCTION vec2 part_in_medium(IN(MediumBlock) medium, float rise, float length) {
+  if (!is_layer(medium)) return vec2(0.0f, length);
+  float crossing = abs(rise) > 1e-30f * abs(medium.top) ? medium.top / rise : k_endless;  // of the layer's top, if > 0
+  if (medium.top < 0.0f) return vec2(rise < 0.0f ? crossing : k_endless, length);
+  return vec2(0.0f, rise > 0.0f ? min(length, crossing) : length);
+}
+
+// The length of the light's way through the medium to a point relative to the eye [m]. A sun's has a length in a layer only:
+// docs/method.md.
+FUNCTION float light_path(IN(MediumBlock) medium, IN(LightBlock) light, IN(vec3) point) {
+  vec3 way = to_light(light, point);
+  float depth = medium.top - point.y;  // below the layer's top
+  if (light.is_near == 0.0f) return is_layer(medium) ? max(depth, 0.0f) / way.y : 0.0f;
+  float light_depth = medium.top - light.from_eye.y;
+  if (depth >= 0.0f && light_depth >= 0.0f) return length(way);
+  if (depth <= 0.0f && light_depth <= 0.0f) return 0.0f;
+  return length(way) * max(depth, light_depth) / abs(depth - light_depth);
+}
 
 #endif

@@ -2,12 +2,19 @@
 #extension GL_GOOGLE_include_directive : require
 #include "frame/uniforms.glsl"
 #include "frame/shadow_cube.glsl"
+#include "frame/shadow_plane.glsl"
 
+layout(constant_id = 0) const bool k_plane = false;
 layout(location = 0) uniform int face;
 layout(location = 0) in vec3 position;
 
 void main() {
-  vec3 d = eye_relative(camera, position) - light.from_eye;
+  vec3 point = eye_relative(camera, position);
+  if (k_plane) {
+    gl_Position = plane_clip(light, point);
+    return;
+  }
+  vec3 d = point - light.from_eye;
   int axis = face >> 1;
   vec3 rotated = axis == 0 ? d.xyz : axis == 1 ? d.yzx : d.zxy;  // (along, u, v)
   float depth = (face & 1) == 0 ? rotated.x : -rotated.x;

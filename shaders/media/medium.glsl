@@ -15,8 +15,9 @@ CONST uint k_henyey_greenstein = 2u;
 CONST uint k_hoffman_preetham = 3u;
 
 CONST float k_deepest = 87.0f;  // optical depth from which on e^−depth is no normal number
+CONST float k_dark = 40.0f;     // optical depth beyond which steps no longer follow a channel while others are lighter
 CONST float k_least_psi = 1e-4f;  // [rad]
-CONST int k_most_steps = 64;
+CONST int k_most_steps = 128;
 
 FUNCTION float rayleigh_phase(float cosine) { return 3.0f / (16.0f * k_pi) * (1.0f + cosine * cosine); }
 
@@ -47,17 +48,22 @@ FUNCTION float phase_function(uint kind, IN(MediumBlock) medium, float half_sine
   return 0.25f / k_pi;
 }
 
-// e^{−σ_t (t + r)} p(α + φ), one channel a component. `complement` is π − α, from which the scattering angle α + φ is
-// right near π too. 0 from α + φ = π on, where the path is infinite, and where single precision has no such number. GLSL lets
-// exp(−x) err by 3 + 2x ulp, which is at most 4e-7 of the integrand without fog.
-FUNCTION vec3 airlight_integrand(IN(EpipolarBlock) space, IN(MediumBlock) medium, uint kind, Angle complement, Angle phi) {
-  vec3 depth = medium.sigma_t * path_length(space, complement, phi);
+// e^{−σ_t path} p(α + φ), one channel a component. `path` of the light to the eye [m]. `complement` is π − α, from which the
+// scattering angle α + φ is right near π too. 0 where single precision has no such number. GLSL lets exp(−x) err by 3 + 2x ulp,
+// which is at most 4e-7 of the integrand without fog.
+FUNCTION vec3 integrand_of_path(IN(MediumBlock) medium, uint kind, float path, Angle complement, Angle phi) {
+  vec3 depth = medium.sigma_t * path;
   vec3 transmittance = exp(-min(depth, vec3(k_deepest)));
   Angle half_from_back = 0.5f * max(complement - phi, Angle(0.0f));
   float phase = phase_function(kind, medium, cosine(half_from_back), sine_of_quarter(half_from_back));
   return vec3(depth.x < k_deepest ? transmittance.x : 0.0f, depth.y < k_deepest ? transmittance.y : 0.0f,
               depth.z < k_deepest ? transmittance.z : 0.0f) *
          phase;
+}
+
+// The same where eye, light and all between are in the medium: the path is t + r, infinite from α + φ = π on.
+FUNCTION vec3 airlight_integrand(IN(EpipolarBlock) space, IN(MediumBlock) medium, uint kind, Angle complement, Angle phi) {
+  return integrand_of_path(medium, kind, path_length(space, complement, phi), complement, phi);
 }
 
 // ∫ airlight_integrand dφ over a short interval, by the two-point Gauss–Legendre rule.
@@ -70,21 +76,35 @@ FUNCTION vec3 integrate_cell(IN(EpipolarBlock) space, IN(MediumBlock) medium, ui
           airlight_integrand(space, medium, kind, complement, middle + offset));
 }
 
+// The largest extinction coefficient of a channel that is not dark yet after so long a path, or else the least of all [1/m].
+FUNCTION float steepest_channel(IN(MediumBlock) medium, float path) {
+  vec3 sigma = medium.sigma_t;
+  float least = min(sigma.x, min(sigma.y, sigma.z));
+  return max(max(sigma.x * path < k_dark ? sigma.x : least, sigma.y * path < k_dark ? sigma.y : least),
+             sigma.z * path < k_dark ? sigma.z : least);
+}
+
 // How far outwards from φ the two-point rule follows the integrand, which is smooth on every scale but three: the optical depth
-// grows as cot(ψ/2), ψ = π − α − φ; ψ falls to 0, where that is infinite; and a lobe is 1 − |g| wide. What lies within
+// changes, by `growth` along φ; ψ = π − α − φ falls to 0, where it is infinite; and a lobe is 1 − |g| wide. What lies within
 // k_least_psi of ψ = 0, or a hundredth of a ray, is one step.
-FUNCTION Angle smooth_length(IN(EpipolarBlock) space, IN(MediumBlock) medium, uint kind, Angle complement, Angle phi) {
+FUNCTION Angle smooth_length_by_growth(IN(MediumBlock) medium, uint kind, Angle complement, Angle phi, float growth) {
   float psi = max(float(complement - phi), 1e-8f);
-  float sigma = max(medium.sigma_t.x, max(medium.sigma_t.y, medium.sigma_t.z));
-  float half_sine = sine_of_quarter(Angle(0.5f * psi));
-  float growth = 0.5f * sigma * space.distance * sine(complement) / (half_sine * half_sine);  // of the depth, along φ
-  float size = min(0.5f * psi, 1.0f / max(growth, 1e-9f));
+  float size = min(0.25f * psi, 0.5f / max(growth, 1e-9f));
   if (has_lobe(kind)) {
     float from_tip = medium.g > 0.0f ? k_pi - psi : psi;
     float width = 1.0f - abs(medium.g);
     size = min(size, 0.2f * sqrt(from_tip * from_tip + width * width));
   }
   return Angle(psi < min(k_least_psi, 0.01f * float(complement)) ? psi : size);
+}
+
+// The same where the depth is that of t + r, which grows as cot(ψ/2).
+FUNCTION Angle smooth_length(IN(EpipolarBlock) space, IN(MediumBlock) medium, uint kind, Angle complement, Angle phi) {
+  Angle half_psi = Angle(0.5f * max(float(complement - phi), 1e-8f));
+  float half_sine = sine_of_quarter(half_psi);
+  float sigma = steepest_channel(medium, path_length(space, complement, phi));
+  float growth = 0.5f * sigma * space.distance * sine(complement) / (half_sine * half_sine);
+  return smooth_length_by_growth(medium, kind, complement, phi, growth);
 }
 
 // ∫ airlight_integrand dφ over an interval of any length, in steps that follow it.

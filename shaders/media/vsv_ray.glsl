@@ -2,12 +2,14 @@
 #include "epipolar/uniforms.glsl"
 #include "epipolar/resolution.glsl"
 #include "epipolar/phi_range.glsl"
-#include "media/medium.glsl"
+#include "media/layer.glsl"
 #include "media/row_end.glsl"
 
 layout(constant_id = 3) const uint k_phase = 0;
 // Whether a voxel is dark as soon as a triangle touches it, or only where its centre is in shadow.
 layout(constant_id = 8) const uint k_whole_voxels = 0;
+// k_no_layer or one of the others (layer.glsl).
+layout(constant_id = 10) const uint k_layer = 0;
 
 layout(binding = k_surface_unit) uniform sampler2D surface_image;
 layout(binding = k_grid_unit) uniform usamplerBuffer grid_texels;
@@ -22,32 +24,46 @@ const float k_touch_slack = 0.25;
 const float k_length_slack = 1e-4;
 
 struct VsvRay {
+  vec3 direction;
+  float entry;       // where it enters the medium [m]
+  float distance;    // where it ends, at a surface or by leaving the medium [m]; k_endless for neither
   EyeAngle angle;
   float alpha;
-  float phi_end;     // where the ray ends
+  float phi_start;   // φ of the entry
+  float phi_end;     // φ of the end
   PhiCells cells;
   float end;         // where the ray ends, in cells of φ
   uint last_cell;    // the cell that holds its end
   int last_valid;    // the last cell whose bit says something about this ray; −1 for none
   uint unknown;      // all bits set or none: what cells hold where none is valid
   int texel;         // the first texel of its row of bits
-  bool is_open;      // meets no surface
+  bool is_open;      // has no end
 };
 
 VsvRay vsv_ray(ivec2 pixel) {
   VsvRay ray;
   vec3 direction = view_ray(camera, vec2(pixel) + 0.5);
+  ray.direction = direction;
   ray.angle = eye_angle(space, direction, quarter_pixel(camera));
   ray.alpha = alpha_of(ray.angle);
   vec4 surface = texelFetch(surface_image, pixel, 0);
-  ray.is_open = surface.w == 0.0;
-  ray.phi_end = ray.is_open ? alpha_complement(ray.angle) : phi_at(space, ray.angle, surface.w);
-  ray.cells = phi_cells();
-  ray.end = cell_of_phi(ray.cells, ray.phi_end);
-  ray.last_cell = uint(clamp(floor(ray.end), 0.0, float(k_phi_count) - 1.0));
+  ray.entry = 0.0;
+  ray.distance = surface.w == 0.0 ? k_endless : surface.w;
+  if (k_layer != k_no_layer) {
+    vec2 part = part_in_medium(medium, direction.y, ray.distance);
+    if (part.x >= part.y) part = vec2(0.0);  // sees nothing of it
+    ray.entry = part.x;
+    ray.distance = part.y;
+  }
+  ray.is_open = ray.distance == k_endless;
+  ray.phi_start = ray.entry == 0.0 ? 0.0 : phi_at(space, ray.angle, ray.entry);
+  ray.phi_end = ray.is_open ? phi_of_open_end(space, ray.angle) : phi_at(space, ray.angle, ray.distance);
   uint i = alpha_cell(space, ray.alpha, k_alpha_count);
   float theta = theta_of(space, direction);
   uint j = theta_cell(space, theta, k_theta_count);
+  ray.cells = phi_cells(j);
+  ray.end = cell_of_phi(ray.cells, ray.phi_end);
+  ray.last_cell = uint(clamp(floor(ray.end), 0.0, float(k_phi_count) - 1.0));
   ray.texel = int((j * k_alpha_count + i) * k_texels_per_ray);
 
   // The bits are those of the row's own ray, at the centre of its cell. Where that ray meets the surface's plane before this one
@@ -55,33 +71,49 @@ VsvRay vsv_ray(ivec2 pixel) {
   // 1/sin α grows a leak would circle the epipole.
   ray.last_valid = int(ray.last_cell);
   ray.unknown = 0u;
-  if (!ray.is_open) {
-    float to_row = space.alpha_min + float(i) * space.alpha_step - ray.alpha;
+  if (ray.distance == surface.w) {
     float d_theta = theta_to_centre(space, theta, j);
     float before;  // the last cell that the surface leaves alone
     if (k_whole_voxels != 0u) {
       // The surface itself makes its voxels dark, first where α is largest and at one of the plane's borders.
       float half_plane = 0.5 * space.theta_step / (1.0 + space.theta_growth * cosine(theta_from_middle(space, theta)));
       float nearer = k_length_slack * max(surface.w, space.distance);
-      float d_alpha = to_row + space.alpha_step;
+      float d_alpha = alpha_of_cell(space, float(i + 1u)) - ray.alpha;
       float d_phi = min(phi_to_row_end(space, ray.angle, direction, surface, d_alpha, d_theta - half_plane, nearer),
                         phi_to_row_end(space, ray.angle, direction, surface, d_alpha, d_theta + half_plane, nearer));
       before = floor(cell_of_phi(ray.cells, max(ray.phi_end + d_phi, 0.0)) - k_touch_slack) - 1.0;
     } else {
       // Half a texel of the shadow map, at the surface, is how far beside the light ray its depth may have been taken.
-      float nearer = length(surface.w * direction - light.from_eye) / light.shadow_map_size;
-      float d_phi = phi_to_row_end(space, ray.angle, direction, surface, to_row + 0.5 * space.alpha_step, d_theta, nearer);
+      vec3 way = to_light(light, surface.w * direction);
+      float nearer = light.half_texel * (is_sun(space) ? 1.0 : length(way) * space.inverse_distance);
+      float d_alpha = alpha_of_cell(space, float(i) + 0.5) - ray.alpha;
+      float d_phi = phi_to_row_end(space, ray.angle, direction, surface, d_alpha, d_theta, nearer);
       before = ceil(cell_of_phi(ray.cells, max(ray.phi_end + d_phi, 0.0)) - 0.5 - k_plane_slack) - 1.0;
     }
     ray.last_valid = int(clamp(before, -1.0, float(ray.last_cell)));
-    // Lit where the surface faces the light.
-    ray.unknown = dot(surface.xyz, light.from_eye) > surface.w * dot(surface.xyz, direction) ? 0u : 0xffffffffu;
+    // Lit where the surface faces the light, but for what looks away from the light and ends within its first cell, on the light rays
+    // next to the eye: that is as dark as they are beside the eye.
+    bool is_dark = light_above(light, surface.xyz, surface.w * dot(surface.xyz, direction)) <= 0.0;
+    if (ray.last_valid < 0 && ray.angle.cosine < 0.0 && !is_dark) {
+      uint beside_eye = alpha_cell(space, 0.5 * k_pi, k_alpha_count);
+      is_dark = (texelFetch(grid_texels, int((j * k_alpha_count + beside_eye) * k_texels_per_ray)).x & 1u) != 0u;
+    }
+    ray.unknown = is_dark ? 0xffffffffu : 0u;
   }
   return ray;
 }
 
 // Bits 0 to `count` − 1 of a word.
 uint low_bits(uint count) { return count >= 32u ? 0xffffffffu : (1u << count) - 1u; }
+
+// Whether the grid ends before the ray, where all is lit; by more than the rounding of either's end.
+bool goes_beyond(VsvRay ray) { return ray.end > float(k_phi_count) + 0.05; }
+
+// The bits of a word that lie before the ray's end, all or in part.
+uint before_end(VsvRay ray, uint word) {
+  if (ray.end < 0.0) return 0u;
+  return word == ray.last_cell >> 5 ? low_bits((ray.last_cell & 31u) + 1u) : 0xffffffffu;
+}
 
 // The bits of a word as this ray sees them: from the last valid cell on, all are like it. `before` carries the
 // preceding word's highest bit, in every place; start it with ray.unknown.

@@ -5,10 +5,14 @@
 
 // Airlight from the shadow volume as the paper sums it (Eq. 5), in φ instead of t: the integrand at the centre of every lit
 // cell. A cell counts whole when its centre lies before the end of the ray. Deviation: with k_rough, where the integrand may change
-// within a cell, its integral over what of the cell lies before that end, and the light's colour at the centre.
+// within a cell, its integral over what of the cell lies before that end, and the light's colour at the centre. In a layer that light
+// or eye enters from above, a cell counts with what of it lies in the layer.
 layout(constant_id = 4) const uint k_light_textured = 0;
 layout(constant_id = 9) const uint k_rough = 0;
 layout(binding = k_light_texture_unit) uniform sampler2D light_texture;
+
+// Steps that half a turn has at most for a light's texture.
+const float k_most_texture_steps = 1024.0;
 
 // What the light radiates along the light ray at φ, relative to its intensity. `outward` is the direction in the plane of the
 // view ray at right angles to the axis.
@@ -17,13 +21,40 @@ vec3 colour_at(vec3 outward, float phi) {
   return light_colour(light_texture, sine(phi) * outward - cosine(phi) * space.axis);
 }
 
+// A lit part of the ray, in steps that follow the integrand, and of a textured light no more than half a texel of latitude, nor than equal
+// cells would be; the light's
+// colour in their middle.
+vec3 integrate_lit(LayerRay ray, float from, float to) {
+  vec3 sum = vec3(0.0);
+  int most = k_layer == k_layer_entered ? k_most_layer_steps : k_most_steps;
+  float longest = k_pi;
+  if (k_light_textured != 0u) {
+    longest = k_pi / min(max(2.0 * float(textureSize(light_texture, 0).y), float(k_phi_count)), k_most_texture_steps);
+    most += int(k_most_texture_steps);
+  }
+  for (int i = 0; i < most && from < to; ++i) {
+    float next;
+    vec3 part;
+    if (k_layer == k_layer_entered) {
+      next = min(to, from + min(longest, smooth_layer_length(space, light, medium, k_phase, ray, from)));
+      part = integrate_layer_cell(space, light, medium, k_phase, ray, from, next);
+    } else {
+      next = min(to, from + min(longest, smooth_length(space, medium, k_phase, ray.complement, from)));
+      part = integrate_cell(space, medium, k_phase, ray.complement, from, next);
+    }
+    sum += part * colour_at(ray.outward, 0.5 * (from + next));
+    from = next;
+  }
+  return sum;
+}
+
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   VsvRay ray = vsv_ray(pixel);
   float complement = alpha_complement(ray.angle);
-  vec3 direction = view_ray(camera, vec2(pixel) + 0.5);
-  vec3 outward = dot(direction, space.u) * space.u + dot(direction, space.f) * space.f;
+  vec3 outward = dot(ray.direction, space.u) * space.u + dot(ray.direction, space.f) * space.f;
   outward = unit_or(outward, space.u);
+  LayerRay in_layer = LayerRay(ray.direction, outward, ray.alpha, complement, ray.entry);
   vec3 sum = vec3(0.0);
   uvec4 words;
   uint before = ray.unknown;
@@ -31,14 +62,23 @@ void main() {
     if ((word & 3u) == 0u) words = texelFetch(grid_texels, ray.texel + int(word >> 2));
     uint lit = ~seen_bits(ray, words.x, word, before);
     words.xyz = words.yzw;
-    if (word == ray.last_cell >> 5) lit &= low_bits((ray.last_cell & 31u) + 1u);
+    lit &= before_end(ray, word);
     while (lit != 0u) {
       uint k = 32u * word + uint(findLSB(lit));
       lit &= lit - 1u;
       float phi = phi_of_cell(ray.cells, float(k) + 0.5);
       float from = phi_of_cell(ray.cells, float(k));
       float to = phi_of_cell(ray.cells, float(k + 1u));
-      if (k_rough != 0u) {
+      if (k_layer == k_layer_entered) {
+        from = max(from, ray.phi_start);
+        to = min(to, ray.phi_end);
+        phi = 0.5 * (from + to);
+        if (k_rough != 0u) {
+          sum += integrate_lit(in_layer, from, to);
+        } else if (from < to) {
+          sum += (to - from) * layer_integrand(space, light, medium, k_phase, in_layer, phi) * colour_at(outward, phi);
+        }
+      } else if (k_rough != 0u) {
         to = min(to, ray.phi_end);
         sum += integrate_run(space, medium, k_phase, complement, from, to) * colour_at(outward, phi);
       } else if (phi < ray.phi_end) {
@@ -46,6 +86,10 @@ void main() {
       }
     }
   }
+  // Before the half-plane's cells, and beyond them, all is lit.
+  float first = min(phi_of_cell(ray.cells, 0.0), ray.phi_end);
+  float last = min(phi_of_cell(ray.cells, float(k_phi_count)), ray.phi_end);
+  sum += integrate_lit(in_layer, ray.phi_start, first) + integrate_lit(in_layer, max(last, ray.phi_start), goes_beyond(ray) ? ray.phi_end : last);
   vec3 radiance = airlight_scale(space, light, medium, ray.angle.sine) * sum;
   airlight = vec4(radiance, 1.0);
 }

@@ -17,14 +17,23 @@ layout(binding = k_table_unit) uniform samplerBuffer table;  // vec2
 layout(constant_id = 6) const uint k_direct_cells = 0;
 layout(constant_id = 7) const uint k_factored = 0;
 
-// Sum of ±S over the changes of visibility of one word, by the two rows. The first change is from light to shadow.
-void add_changes(uint changes, uint first_cell, uint row_start, inout float sign, inout vec2 sum[3]) {
+// Adds sign · T at a place in the frame's range of φ, by the two rows.
+void add_entry(float place, uint row_start, float sign, inout vec2 sum[3]) {
+  float at = clamp(place * float(k_phi_count), 0.0, float(k_phi_count));
+  float column = min(floor(at), float(k_phi_count) - 1.0);
+  float blend = at - column;
+  for (uint channel = 0u; channel < k_channels; ++channel) {
+    vec4 entry = texelFetch(table, int(row_start + uint(column) * k_channels + channel));
+    sum[channel] += sign * mix(entry.xy, entry.zw, blend);
+  }
+}
+
+// Sum of ±T over the changes of visibility of one word. The first change is from light to shadow.
+void add_changes(VsvRay ray, uint changes, uint first_cell, uint row_start, inout float sign, inout vec2 sum[3]) {
   while (changes != 0u) {
     uint k = first_cell + uint(findLSB(changes));
     changes &= changes - 1u;
-    for (uint channel = 0u; channel < k_channels; ++channel) {
-      sum[channel] += sign * texelFetch(table, int(row_start + k * k_channels + channel)).xy;
-    }
+    add_entry(place_of_cell(ray.cells, float(k)), row_start, sign, sum);
     sign = -sign;
   }
 }
@@ -38,6 +47,8 @@ void main() {
     float complement = alpha_complement(ray.angle);
     uint before = ray.unknown;
     uint shadow = seen_bits(ray, texelFetch(grid_texels, ray.texel).x, 0u, before);
+    float first = min(phi_of_cell(ray.cells, 0.0), ray.phi_end);
+    integral += integrate_run(space, medium, k_phase, complement, 0.0, first);
     for (uint k = 0u; k <= ray.last_cell; ++k) {
       if ((shadow >> k & 1u) != 0u) continue;
       float from = phi_of_cell(ray.cells, float(k));
@@ -53,9 +64,9 @@ void main() {
     vec2 sum[3] = vec2[3](vec2(0.0), vec2(0.0), vec2(0.0));
     for (uint channel = 0u; channel < k_channels; ++channel) sum[channel] = texelFetch(table, int(row_start + channel)).xy;
     float sign = -1.0;  // − where light ends, + where it begins
-    float lit_range = 0.0;  // of φ, in any unit
-    float all_range = 0.0;
-    float word_start = 0.0;  // φ
+    float word_start = phi_of_cell(ray.cells, 0.0);
+    float lit_range = min(word_start, ray.phi_end);  // of φ
+    float dark_range = 0.0;
     uint before = ray.unknown;  // the highest bit of the word before, in every place
     uint carry = 0u;            // the same as a bit; what lies before the first word counts as lit
     uint last_word = ray.last_cell >> 5;
@@ -64,38 +75,46 @@ void main() {
       if ((word & 3u) == 0u) words = texelFetch(grid_texels, ray.texel + int(word >> 2));
       uint shadow = seen_bits(ray, words.x, word, before);
       words.xyz = words.yzw;
-      uint before_end = word == last_word ? low_bits((ray.last_cell & 31u) + 1u) : 0xffffffffu;
+      uint inside = before_end(ray, word);
       if (k_factored != 0u) {
         float word_end = phi_of_cell(ray.cells, float(32u * word + 32u));
-        float weight = word_end - word_start;
+        float width = (word_end - word_start) / 32.0;
+        dark_range += width * float(bitCount(shadow & inside));
+        lit_range += width * float(bitCount(~shadow & inside));
         word_start = word_end;
-        lit_range += weight * float(bitCount(~shadow & before_end));
-        all_range += weight * float(bitCount(before_end));
       } else {
         uint changes = shadow ^ (shadow << 1 | carry);
         carry = shadow >> 31;
-        add_changes(changes & before_end, 32u * word, row_start, sign, sum);
+        add_changes(ray, changes & inside, 32u * word, row_start, sign, sum);
       }
     }
+    // Where the half-plane's cells end before the ray, all beyond is lit.
+    if (sign > 0.0 && goes_beyond(ray)) {
+      add_entry(place_of_cell(ray.cells, float(k_phi_count)), row_start, sign, sum);
+      sign = -sign;
+    }
     // The ray ends in light: close the last lit run. (Factored, it is the only one.)
-    float within = ray.is_open ? 1.0 : clamp(ray.end - float(ray.last_cell), 0.0, 1.0);
-    bool ends_in_light = sign < 0.0 && !ray.is_open;
-    if (ends_in_light) {
-      uint entry = row_start + ray.last_cell * k_channels;
-      for (uint channel = 0u; channel < k_channels; ++channel) {
-        vec2 from = texelFetch(table, int(entry + channel)).xy;
-        sum[channel] -= k_rough != 0u ? from : mix(from, texelFetch(table, int(entry + k_channels + channel)).xy, within);
-      }
+    bool ends_in_light = sign < 0.0;
+    if (ends_in_light && ray.is_open) {
+      uint beyond = row_start + (k_phi_count + 1u) * k_channels;
+      for (uint channel = 0u; channel < k_channels; ++channel) sum[channel] += texelFetch(table, int(beyond + channel)).xy;
+    } else if (ends_in_light) {
+      add_entry(k_rough != 0u ? place_of_cell(ray.cells, float(ray.last_cell)) : place_of_phi(ray.cells, ray.phi_end), row_start,
+                sign, sum);
     }
     for (uint channel = 0u; channel < 3u; ++channel) {
       vec2 rows = sum[min(channel, k_channels - 1u)];
       integral[channel] = mix(rows.x, rows.y, blend);
     }
-    if (k_rough != 0u && ends_in_light) {
-      integral += integrate_run(space, medium, k_phase, alpha_complement(ray.angle),
-                                phi_of_cell(ray.cells, float(ray.last_cell)), ray.phi_end);
+    // What the table leaves to the end: within a cell, or beyond its last column.
+    if ((k_rough != 0u || k_layer != k_no_layer) && ends_in_light && !ray.is_open) {
+      float from = k_rough != 0u ? phi_of_cell(ray.cells, float(ray.last_cell)) : ray.cells.phi_max;
+      integral += integrate_run(space, medium, k_phase, alpha_complement(ray.angle), from, ray.phi_end);
     }
-    if (k_factored != 0u) integral *= lit_range / all_range;
+    if (k_factored != 0u) {
+      if (goes_beyond(ray)) lit_range += ray.phi_end - word_start;
+      integral *= lit_range / (lit_range + dark_range);
+    }
   }
   vec3 radiance = airlight_scale(space, light, medium, ray.angle.sine) * max(integral, vec3(0.0));
   airlight = vec4(radiance, 1.0);

@@ -189,7 +189,7 @@ void print_stages(Bench& bench, gpu::Context& context) {
        "light ray"},
       {"scan", light_rays * (4 + n.alpha / 8.0), "numbers read, the grid written", light_rays * n.alpha / 32,
        "word"},
-      {"table", k_table_rows * n.phi * 8, "written", k_table_rows * n.phi, "entry"},
+      {"table", k_table_rows * n.phi * 16, "written", k_table_rows * n.phi, "entry"},
       {"integrate", pixels * (16 + row + 16), "surface and a row of the grid read, airlight written", pixels,
        "pixel"},
       {"surface_query", pixels * (16 + 4 + 4), "surface and a texel read, visibility written", pixels,

@@ -21,7 +21,7 @@ struct Debugged {
   std::vector<std::uint32_t> bits;  ///< after the scan
   std::vector<glm::vec4> surfaces;
   shaders::EpipolarBlock space;
-  shaders::PhiCells cells;
+  std::vector<shaders::PhiCells> cells;  ///< of each half-plane
 };
 
 Debugged debug(const char* scene, glm::ivec2 size, const VolumeOptions& settings) {
@@ -92,9 +92,9 @@ TEST(DebugImages, CountTheShadowedSamplesOfEachPixel) {
       const double sine = glm::length(glm::cross(axis, ray)), cosine = glm::dot(axis, ray);
       const double t = static_cast<double>(debugged.surfaces[pixel].w);
       const double phi = t > 0 ? std::atan2(t * sine, distance - t * cosine) : std::atan2(sine, -cosine);
-      const double end = tests::cells_of_phi(debugged.cells, phi);
       const double i = tests::cells_of_alpha(debugged.space, std::atan2(sine, cosine));
       const double j = tests::cells_of_theta(debugged.space, std::atan2(glm::dot(ray, f), glm::dot(ray, u)));
+      const double end = tests::cells_of_phi(debugged.cells.at(static_cast<std::size_t>(j)), phi);
       // Single precision may put a number that is near a border on its other side.
       const auto is_near_border = [](double v) { return std::abs(v - std::round(v)) < 1e-2; };
       if (is_near_border(i) || is_near_border(j) || is_near_border(end - 0.5)) continue;

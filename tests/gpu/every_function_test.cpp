@@ -123,6 +123,46 @@ constexpr Function k_functions[] = {
     {"boundary_ray", 2, 0, 5e-6},  // 34 e
     {"least_alpha_order", 1, 0, 1e-4, Scale::one, 20},
     {"first_touched_cell", 1, 0, 1, Scale::one, 20},
+    // Both kinds of light.
+    {"phi_through", 1, 2 * k_single, 0},
+    {"phi_at sun", 1, k_single, 2e-7, Scale::length},  // eye_angle.sine times t
+    {"phi_of_open_end", 1, k_angle, 4e-7},             // alpha_complement
+    {"crossing_of", 1, 3 * k_single, 0},               // over a cosine ≥ 0.37
+    {"crossing_of sun", 1, 0, 0},
+    {"phi_order_at", 1, 0, 2e-5},  // as phi_at
+    {"phi_order_at sun", 1, k_single, 2e-7, Scale::length},
+    {"phi_order_of_open_end", 1, 0, 1.2e-6},  // angle_order of eye_angle
+    {"phi_from_order", 1, k_angle, 3e-7},     // angle_from_order
+    {"phi_from_order sun", 1, 0, 0},
+    {"spaced_alpha equal", 1, 0, k_rounding},
+    {"cell_of_alpha equal", 1, k_single, 1e-4},  // over a step of 0.005
+    {"alpha_of_cell equal", 1, k_single, 0},
+    {"spaced_alpha root", 1, 0, 1e-6},  // a difference of square roots of 4.5 ulp
+    {"cell_of_alpha root", 1, k_single, 2e-4},
+    {"alpha_of_cell root", 1, 2 * k_single, 0},
+    {"spaced_alpha root of complement", 1, 0, 1e-6},
+    {"cell_of_alpha root of complement", 1, k_single, 2e-4},
+    {"alpha_of_cell root of complement", 1, 0, 4e-6},  // π minus the square of such a root
+    {"own_cells.first", 1, 2 * k_single, 0},
+    {"own_cells.per_cell", 1, 0, 4e-9},  // a difference of places, over 512
+    {"phi_of_cell own", 1, 2 * k_single, 0},
+    {"cell_of_phi own", 1, 0, 6e-3},  // a place, over 512 cells of a seventh of the range or more
+    {"to_light", 3, 0, k_single, Scale::length},
+    {"light_above", 1, 0, k_single},
+    {"part_in_medium", 2, k_single, 0},
+    {"light_path", 1, k_single, 2 * k_single},      // of a height, over one of 1 m or more
+    {"light_path sun", 1, k_single, 5 * k_single},  // of a height, over a sine ≥ 0.2
+    {"plane_share", 1, 0, 1e-5},                    // 1 − 20
+    {"plane_uv", 2, 0, k_single, Scale::length},
+    {"plane_clip", 4, 0, 2 * k_single, Scale::length},  // of shares, D ≥ ½
+    {"plane_z", 1, k_single, 5e-6},                     // over a scale of 0.05
+    {"sun_ray.entry", 1, k_single, 0},
+    {"sun_ray.exit", 1, k_single, 0},
+    {"sun_ray.path", 1, k_single, 0},
+    {"sun_ray.slope", 1, k_single, k_single},  // 1 − 5
+    {"mean_decay", 1, 2 * k_single, 0},
+    {"integrate_sun_run", 3, 2 * k_single, 4e-7, Scale::length},  // exp, see above
+    {"sun_scale", 3, 2 * k_single, 0},
 };
 
 std::vector<Inputs> random_inputs(int count) {

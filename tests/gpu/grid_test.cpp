@@ -69,7 +69,8 @@ TEST(Grid, LargerThanOneStorageBufferIsFilledWindowByWindow) {
   tests::look_into_frame(
       scene.geometry, view_of(scene, {32, 32}), 256, [&](const frame::FrameInputs& inputs) {
         const auto bits = [&](Scan scan) {
-          ShadowVolume volume(inputs.context.limits(), {.resolution = n, .scan = scan});
+          ShadowVolume volume(inputs.context.limits(),
+                              {.resolution = n, .scan = scan, .ranges = Ranges::alpha_phi});
           tests::build(volume, inputs, 1.0f);
           EXPECT_GT(volume.grid().windows().size(), 1u);
           EXPECT_EQ(volume.grid().bits().bytes(), bytes);
@@ -185,7 +186,7 @@ class BitsOf {
       ShadowVolume volume(inputs.context.limits(), {.resolution = n, .ranges = Ranges::alpha_phi});
       tests::build(volume, inputs, k_growth);
       bits_ = volume.grid().bits().read<std::uint32_t>();
-      phi_max_ = static_cast<double>(tests::phi_cells(volume).phi_max);
+      phi_max_ = static_cast<double>(tests::phi_cells(volume).front().phi_max);
     });
     alpha_ = alpha_range(scene::camera_frame(view.camera, view.size), axes_.axis);
   }

@@ -53,8 +53,10 @@ class Grids {
       const double x = glm::dot(p, axes.u), y = glm::dot(p, axes.f), z = glm::dot(p, axes.axis);
       const double i = tests::cells_of_alpha(space_, std::atan2(std::hypot(x, y), z));
       const double j = tests::cells_of_theta(space_, std::atan2(y, x));
-      const double k = tests::cells_of_phi(cells_, std::atan2(std::hypot(x, y), D - z));
-      if (i >= n.alpha || j < 0 || j >= n.theta || k >= n.phi) continue;
+      if (i >= n.alpha || j < 0 || j >= n.theta) continue;
+      const double k =
+          tests::cells_of_phi(cells_[static_cast<std::size_t>(j)], std::atan2(std::hypot(x, y), D - z));
+      if (k < 0 || k >= n.phi) continue;
       ++inside;
       missed += !tests::is_set(bits_, n, static_cast<int>(std::max(i, 0.0)), static_cast<int>(j),
                                static_cast<int>(k));
@@ -79,7 +81,7 @@ class Grids {
   scene::View view_;
   std::vector<std::uint32_t> bits_, from_shadow_map_;
   shaders::EpipolarBlock space_{};
-  shaders::PhiCells cells_{};
+  std::vector<shaders::PhiCells> cells_;
 };
 
 void expect_conservative(const scene::Geometry& geometry, const scene::View& view) {

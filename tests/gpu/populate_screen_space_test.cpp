@@ -36,7 +36,7 @@ scene::View make_view(glm::dvec3 eye, glm::dvec3 target, glm::dvec3 light) {
 struct Bits {
   std::vector<std::uint32_t> solid, shadow, conservative;
   shaders::EpipolarBlock space;
-  shaders::PhiCells cells;
+  std::vector<shaders::PhiCells> cells;  ///< of each half-plane
 };
 
 Bits bits_of(const scene::Geometry& geometry, const scene::View& view) {
@@ -46,8 +46,8 @@ Bits bits_of(const scene::Geometry& geometry, const scene::View& view) {
                        {.resolution = k_resolution, .populate = Populate::screen_space});
     bits.space = solid.find_ranges(inputs);
     tests::set_growth(solid, k_growth);
-    bits.cells = tests::phi_cells(solid);
     solid.fill_unscanned(inputs);
+    bits.cells = tests::phi_cells(solid);
     bits.solid = solid.grid().bits().read<std::uint32_t>();
     solid.fill(inputs);
     bits.shadow = solid.grid().bits().read<std::uint32_t>();
@@ -72,11 +72,10 @@ glm::dvec3 centre(const Bits& bits, const scene::View& view, int i, int j, int k
   const glm::dvec3 to_light = view.lights[0].position - view.camera.eye;
   const double D = glm::length(to_light);
   const Axes axes = make_axes(to_light / D);
-  const double alpha =
-      static_cast<double>(bits.space.alpha_min) + (i + 0.5) * static_cast<double>(bits.space.alpha_step);
+  const double alpha = tests::alpha_of_cells(bits.space, i + 0.5);
   const auto theta = static_cast<double>(shaders::theta_centre(bits.space, static_cast<std::uint32_t>(j)));
-  const auto phi =
-      static_cast<double>(shaders::phi_of_cell(bits.cells, shaders::Cell(static_cast<float>(k) + 0.5f)));
+  const auto phi = static_cast<double>(shaders::phi_of_cell(bits.cells[static_cast<std::size_t>(j)],
+                                                            shaders::Cell(static_cast<float>(k) + 0.5f)));
   const double t = alpha + phi < std::numbers::pi - 1e-6 ? D * std::sin(phi) / std::sin(alpha + phi) : 1e9;
   return view.camera.eye + t * (std::sin(alpha) * (std::cos(theta) * axes.u + std::sin(theta) * axes.f) +
                                 std::cos(alpha) * axes.axis);
@@ -160,7 +159,7 @@ TEST(ScreenSpace, OccluderNearerTheAxisThanTheImageShadows) {
       bool is_in_shadow = false, is_doubtful = false;
       int differing = 0;
       for (int i = 0; i < k_resolution.alpha; ++i) {
-        const double alpha = (i + 0.5) * static_cast<double>(bits.space.alpha_step);
+        const double alpha = tests::alpha_of_cells(bits.space, i + 0.5);
         const double depth = alpha < 2 * largest_alpha
                                  ? in_box(centre(bits, view, i, j, k), {-0.1, -0.1, -2.2}, {0.1, 0.1, -2})
                                  : -1;

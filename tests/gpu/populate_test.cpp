@@ -92,34 +92,69 @@ TEST(Populate, BuildingTwiceGivesTheSameBits) {
   });
 }
 
-/// φ_max of a view in double precision, from the distances that the frame holds.
-double largest_phi(const scene::View& view, const std::vector<float>& distance) {
+/// The largest φ of half-planes in double precision, from the distances that the frame holds.
+struct Seen {
+  std::vector<double> at_least;  ///< of the pixels that surely lie in it
+  std::vector<double> at_most;   ///< with those near a border, of which single precision decides
+};
+
+Seen largest_phi(const scene::View& view, const std::vector<float>& distance,
+                 const shaders::EpipolarBlock& space, std::size_t planes) {
   const glm::ivec2 size = view.size;
   const scene::CameraFrame camera = scene::camera_frame(view.camera, size);
-  const glm::dvec3 to_light = view.lights[0].position - camera.eye;
-  const double D = glm::length(to_light), quarter = 0.5 * camera.half_height / size.y;
-  double largest = 0.0;
-  for (int y = 0; y < size.y; ++y) {
-    for (int x = 0; x < size.x; ++x) {
-      const glm::dvec3 ray = tests::pixel_ray(camera, size, x, y);
-      const double sine = std::max(glm::length(glm::cross(to_light, ray)) / D, quarter);
-      const double cosine = glm::dot(to_light, ray) / D;
-      const auto t = static_cast<double>(distance[static_cast<std::size_t>(y * size.x + x)]);
-      largest = std::max(largest, t > 0 ? std::atan2(t * sine, D - t * cosine) : std::atan2(sine, -cosine));
-    }
+  const scene::Light& light = view.lights[0];
+  const Axes axes = make_axes(scene::direction_to(light, camera.eye));
+  const double quarter = 0.5 * camera.half_height / size.y;
+  Seen seen{.at_least = std::vector(planes, 0.0), .at_most = std::vector(planes, 0.0)};
+  for (std::size_t pixel = 0; pixel < distance.size(); ++pixel) {
+    const glm::dvec3 ray = tests::pixel_ray(camera, size, pixel);
+    const double sine = std::max(glm::length(glm::cross(axes.axis, ray)), quarter);
+    const double cosine = glm::dot(axes.axis, ray);
+    const auto t = static_cast<double>(distance[pixel]);
+    const double D = glm::distance(light.position, camera.eye);
+    const double phi = scene::is_sun(light) ? (t > 0 ? t * sine : static_cast<double>(shaders::k_endless_phi))
+                       : t > 0              ? std::atan2(t * sine, D - t * cosine)
+                                            : std::atan2(sine, -cosine);
+    const double j = tests::cells_of_theta(space, std::atan2(glm::dot(ray, axes.f), glm::dot(ray, axes.u)));
+    const auto plane = [&](double cell) {
+      // Around the turn, if the grid covers it; else the nearest.
+      const auto count = static_cast<double>(planes);
+      const bool is_turn = space.theta_half == shaders::k_half_turn;
+      cell = is_turn ? cell - count * std::floor(cell / count) : std::clamp(cell, 0.0, count - 0.5);
+      return std::min(static_cast<std::size_t>(cell), planes - 1);
+    };
+    constexpr double k_rounding = 1e-3;
+    const std::size_t before = plane(j - k_rounding), after = plane(j + k_rounding);
+    for (const std::size_t at : {before, after}) seen.at_most[at] = std::max(seen.at_most[at], phi);
+    if (before == after) seen.at_least[before] = std::max(seen.at_least[before], phi);
   }
-  return largest;
+  return seen;
 }
 
 void expect_largest_phi(const scene::Geometry& geometry, const scene::View& view) {
   look_into_frame(geometry, view, 16, [&](const frame::FrameInputs& inputs) {
-    const ShadowVolume volume(inputs.context.limits(), {.resolution = {8, 8, 128}});
-    volume.find_ranges(inputs);
-    const auto order = volume.grid().phi_range().read<shaders::Order>().at(0);
-    // The order is a single-precision number up to 2.
-    EXPECT_NEAR(static_cast<double>(shaders::angle_from_order(order)),
-                largest_phi(view, tests::distances(inputs)), 1e-6)
-        << view.size.x << "x" << view.size.y;
+    constexpr std::size_t k_planes = 8;
+    const ShadowVolume volume(inputs.context.limits(), {.resolution = {8, k_planes, 128}});
+    const shaders::EpipolarBlock space = volume.find_ranges(inputs);
+    const Seen expected = largest_phi(view, tests::distances(inputs), space, k_planes);
+    const auto range = volume.grid().phi_range().read<float>();
+    const auto box = volume.grid().box_ranges().read<glm::vec2>();
+    const auto planes = volume.grid().planes().read<glm::vec4>();
+    float largest = 0.0f;
+    for (std::size_t j = 0; j < k_planes; ++j) {
+      const shaders::Angle seen = shaders::phi_from_order(space, shaders::Order(range.at(2 + j)));
+      // The order is a single-precision number up to 2; of a sun the length itself.
+      const double tolerance = 1e-6 * std::max(expected.at_most[j], 1.0);
+      EXPECT_GE(static_cast<double>(seen), expected.at_least[j] - tolerance)
+          << view.size.x << "x" << view.size.y << ", plane " << j;
+      EXPECT_LE(static_cast<double>(seen), expected.at_most[j] + tolerance)
+          << view.size.x << "x" << view.size.y << ", plane " << j;
+      // Of that, what the box can shade.
+      EXPECT_EQ(planes.at(2 * j + 1).x, box.at(j).x);
+      EXPECT_FLOAT_EQ(planes.at(2 * j + 1).y, std::min(box.at(j).y, static_cast<float>(seen)));
+      largest = std::max(largest, planes.at(2 * j + 1).y);
+    }
+    EXPECT_EQ(range.at(0), largest);
   });
 }
 
@@ -129,6 +164,15 @@ TEST_P(PhiRange, OnTheGpuIsTheLargestOnTheCpu) {
   const scene::Scene& scene = builtin(GetParam());
   for (glm::ivec2 size : {glm::ivec2(64, 64), glm::ivec2(65, 33), glm::ivec2(1, 1), glm::ivec2(1, 40)}) {
     expect_largest_phi(scene.geometry, view_of(scene, size));
+  }
+}
+
+TEST_P(PhiRange, OfASunIsTheLargestDistanceFromTheAxis) {
+  const scene::Scene& scene = builtin(GetParam());
+  scene::View view = view_of(scene, {65, 33});
+  for (const glm::dvec3& towards : {glm::dvec3(0.3, 1.0, -0.5), glm::dvec3(0.05, 0.1, -1.0)}) {
+    view.lights[0] = scene::sun("", towards, glm::vec3(1.0f));
+    expect_largest_phi(scene.geometry, view);
   }
 }
 

@@ -24,10 +24,10 @@ using tests::look_into_frame;
 using tests::view_of;
 
 /// light_near / depth of every texel of the six faces, 0 where there is nothing.
-std::vector<float> read_faces(const ShadowMap& map, int size) {
+std::vector<float> read_faces(const gpu::Texture& map, int size) {
   std::vector<float> texels(static_cast<std::size_t>(6 * size * size));
-  glGetTextureImage(map.depth().name(), 0, GL_DEPTH_COMPONENT, GL_FLOAT,
-                    static_cast<GLsizei>(4 * texels.size()), texels.data());
+  glGetTextureImage(map.name(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, static_cast<GLsizei>(4 * texels.size()),
+                    texels.data());
   return texels;
 }
 
@@ -116,7 +116,9 @@ TEST(ShadowMap, HoldsTheFacesAskedForAndNothingElsewhere) {
 class LookUpInAllFaces : public surface_shadows::ShadowMapLookup {
  public:
   void query(const FrameInputs& inputs, const gpu::Texture& visibility) override {
-    some_are_enough = !inputs.shadow_map(0.0).has(CubeFaces("111111"));
+    const scene::CameraFrame camera = scene::camera_frame(inputs.view.camera, inputs.view.size);
+    some_are_enough =
+        !inputs.shadow_map_is_plane() && !needed_faces(camera, inputs.light().position, 0.0).all();
     inputs.shadow_map();
     ShadowMapLookup::query(inputs, visibility);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -46,12 +47,19 @@ inline void set_growth(const epipolar::ShadowVolume& volume, float growth) {
   volume.grid().phi_range().write(range.data(), volume.grid().phi_range().bytes());
 }
 
-/// How such a volume cuts φ.
-inline shaders::PhiCells phi_cells(const epipolar::ShadowVolume& volume) {
+/// How each half-plane of such a volume, once it is filled, cuts φ.
+inline std::vector<shaders::PhiCells> phi_cells(const epipolar::ShadowVolume& volume) {
   const std::vector<float> range = volume.grid().phi_range().read<float>();
-  return {.phi_max = shaders::angle_from_order(shaders::Order(range.at(0))),
-          .growth = range.at(1),
-          .count = shaders::Cell(static_cast<float>(volume.grid().resolution().phi))};
+  const std::vector<glm::vec4> planes = volume.grid().planes().read<glm::vec4>();
+  std::vector<shaders::PhiCells> cells;
+  for (std::size_t of_cells = 1; of_cells < planes.size(); of_cells += 2) {
+    cells.push_back({.phi_max = shaders::Angle(std::max(range.at(0), 1e-6f)),
+                     .growth = range.at(1),
+                     .count = shaders::Cell(static_cast<float>(volume.grid().resolution().phi)),
+                     .first = planes[of_cells].z,
+                     .per_cell = planes[of_cells].w});
+  }
+  return cells;
 }
 
 /// Builds a shadow volume whose cells in φ grow.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -27,9 +28,28 @@ inline bool is_set(std::span<const std::uint32_t> words, const epipolar::Resolut
   return (words[at / 32] >> at % 32 & 1u) != 0;
 }
 
+/// α in what its cells are equal in.
+inline double spaced_alpha(const shaders::EpipolarBlock& space, double alpha) {
+  if (space.alpha_spacing == shaders::k_root_of_alpha) return std::sqrt(alpha);
+  if (space.alpha_spacing == shaders::k_root_of_complement)
+    return -std::sqrt(std::max(static_cast<double>(shaders::k_pi) - alpha, 0.0));
+  return alpha;
+}
+
 /// α in cells: cell i reaches from i to i + 1.
 inline double cells_of_alpha(const shaders::EpipolarBlock& space, double alpha) {
-  return (alpha - static_cast<double>(space.alpha_min)) / static_cast<double>(space.alpha_step);
+  return (spaced_alpha(space, alpha) - spaced_alpha(space, static_cast<double>(space.alpha_min))) /
+         static_cast<double>(space.alpha_step);
+}
+
+/// Its inverse.
+inline double alpha_of_cells(const shaders::EpipolarBlock& space, double cells) {
+  const double spaced = spaced_alpha(space, static_cast<double>(space.alpha_min)) +
+                        cells * static_cast<double>(space.alpha_step);
+  if (space.alpha_spacing == shaders::k_root_of_alpha) return spaced * spaced;
+  if (space.alpha_spacing == shaders::k_root_of_complement)
+    return static_cast<double>(shaders::k_pi) - spaced * spaced;
+  return spaced;
 }
 
 /// θ in planes.
@@ -45,7 +65,8 @@ inline double cells_of_theta(const shaders::EpipolarBlock& space, double theta) 
 inline double cells_of_phi(const shaders::PhiCells& cells, double phi) {
   const auto growth = static_cast<double>(cells.growth);
   const double q = (1 + growth) * phi / static_cast<double>(cells.phi_max);
-  return static_cast<double>(cells.count) * 2 * q / (1 + std::sqrt(1 + 4 * growth * q));
+  const double place = 2 * q / (1 + std::sqrt(1 + 4 * growth * q));
+  return (place - static_cast<double>(cells.first)) / static_cast<double>(cells.per_cell);
 }
 
 }  // namespace airlight::tests

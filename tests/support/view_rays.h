@@ -3,8 +3,21 @@
 #include <glm/glm.hpp>
 
 #include "scene/scene.h"
+#include "support/random.h"
 
 namespace airlight::tests {
+
+/// One within 10 m of the origin that looks anywhere.
+inline scene::CameraFrame random_camera(Random& random) {
+  const glm::dvec3 forward = random.direction();
+  const glm::dvec3 right = glm::normalize(glm::cross(forward, random.direction()));
+  return {.eye = random.in_box(10),
+          .right = right,
+          .up = glm::cross(right, forward),
+          .forward = forward,
+          .half_width = random.logarithmic(0.02, 3),
+          .half_height = random.logarithmic(0.02, 3)};
+}
 
 /// The unit view ray through a point of the image, in [−1, 1]², y upwards.
 inline glm::dvec3 view_ray(const scene::CameraFrame& camera, double x, double y) {

@@ -3,13 +3,15 @@
 #define AIRLIGHT_EVERY_FUNCTION_GLSL
 #include "frame/light_texture.glsl"
 #include "frame/shadow_cube.glsl"
+#include "frame/shadow_plane.glsl"
 #include "frame/camera.glsl"
 #include "epipolar/conservative.glsl"
 #include "media/medium.glsl"
 #include "media/row_end.glsl"
+#include "media/sun.glsl"
 #include "media/table_place.glsl"
 
-CONST uint k_outputs = 119u;
+CONST uint k_outputs = 169u;
 
 struct Inputs {
   vec4 a;  // axis, D
@@ -35,6 +37,11 @@ FUNCTION void put(INOUT(Outputs) outputs, INOUT(uint) at, float value) {
   at += 1u;
 }
 
+FUNCTION void put(INOUT(Outputs) outputs, INOUT(uint) at, IN(vec2) value) {
+  put(outputs, at, value.x);
+  put(outputs, at, value.y);
+}
+
 FUNCTION void put(INOUT(Outputs) outputs, INOUT(uint) at, IN(PlaneSpan) span) {
   put(outputs, at, float(span.first));
   put(outputs, at, float(span.count));
@@ -49,6 +56,14 @@ FUNCTION void put(INOUT(Outputs) outputs, INOUT(uint) at, IN(SlabOutline) outlin
     put(outputs, at, outline.segment[i].z);
     put(outputs, at, outline.segment[i].w);
   }
+}
+
+// Not in a loop: a compiler that leaves one as it is no longer knows where the values after it go, which costs it minutes.
+FUNCTION void put_cells_of_alpha(INOUT(Outputs) outputs, INOUT(uint) at, INOUT(EpipolarBlock) space, float spacing, Angle alpha) {
+  space.alpha_spacing = spacing;
+  put(outputs, at, spaced_alpha(space, alpha));
+  put(outputs, at, float(cell_of_alpha(space, alpha)));
+  put(outputs, at, float(alpha_of_cell(space, Cell(80.0f * float(alpha)))));
 }
 
 FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
@@ -66,11 +81,15 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   EpipolarBlock space;
   space.axis = l;
   space.distance = inputs.a.w;
+  space.inverse_distance = 1.0f / inputs.a.w;
   // Any pair at right angles will do; this one has no branch.
   space.u = normalize(cross(l, vec3(0.1f, 0.7f, -0.3f)));
   space.f = cross(l, space.u);
   space.alpha_min = Angle(0.3f);
-  space.alpha_step = Angle(0.005f);
+  space.alpha_step = 0.005f;
+  space.alpha_spacing = k_equal_alpha;
+  space.own_ranges = 0.0f;
+  space.unused = 0.0f;
   space.theta_middle = Angle(0.5f);
   space.theta_half = Angle(3.0f);
   space.theta_growth = 0.3f;
@@ -81,12 +100,22 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   medium.g = g;
   medium.sigma_t = vec3(0.15f, 0.2f, 0.4f);
   medium.rayleigh_weight = 0.3f;
+  medium.top = k_no_top;
+  medium.unused_0 = medium.unused_1 = medium.unused_2 = 0.0f;
 
   LightBlock light;
   light.from_eye = 2.0f * l;
+  light.is_near = 1.0f;
   light.near = 0.1f;
   light.intensity = vec3(5.0f, 6.0f, 7.0f);
   light.shadow_map_size = 512.0f;
+  light.depth_scale = 0.05f;
+  light.depth_offset = 0.4f;
+  light.half_texel = 0.01f;
+  light.image_x = vec4(space.u / 3.0f, 0.1f);
+  light.image_y = vec4(space.f / 2.0f, -0.2f);
+  light.axis = l;
+  light.inverse_distance = space.inverse_distance;
 
   CameraBlock camera;
   camera.eye_high = 100.0f * ray;
@@ -150,10 +179,7 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   PRECISE vec3 world = 100.0f * ray + 0.01f * any_vector;
   put(outputs, at, eye_relative(camera, world));
   put(outputs, at, ray_triangle_distance(l, t * l + space.u, t * l - 2.0f * space.f, 2.0f * t * l - space.u + space.f));
-  PhiCells cells;
-  cells.phi_max = complement;
-  cells.growth = 1.0f + g;
-  cells.count = Cell(512.0f);
+  PhiCells cells = shared_cells(complement, 1.0f + g, Cell(512.0f));
   put(outputs, at, float(phi_of_cell(cells, Cell(100.0f * float(alpha)))));
   put(outputs, at, float(cell_of_phi(cells, phi)));
   vec2 place = light_texture_place(float(theta), 0.5f * float(theta));
@@ -197,17 +223,73 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   SlabPart part = part_in_slab(space, cells, triangle, middle - Angle(0.01f), middle + Angle(0.01f));
   put(outputs, at, part.outline);
   put(outputs, at, curvature_slack(part.outline, 0.01f));
-  vec2 orders = phi_order_bounds(part.outline, slack);
+  vec2 orders = phi_order_bounds(space, part.outline, slack);
   put(outputs, at, orders.x);
   put(outputs, at, orders.y);
   put(outputs, at, float(part.first_ray));
   put(outputs, at, float(part.end_ray));
-  vec2 from_ray = boundary_ray(cells, 0u);
-  vec2 to_ray = boundary_ray(cells, 511u);
+  vec3 from_ray = boundary_ray(space, cells, 0u);
+  vec3 to_ray = boundary_ray(space, cells, 511u);
   put(outputs, at, to_ray.x);
   put(outputs, at, to_ray.y);
-  put(outputs, at, float(least_alpha_order(part.outline, from_ray, to_ray, space.distance, slack)));
+  put(outputs, at, float(least_alpha_order(space, part.outline, from_ray, to_ray, slack)));
   put(outputs, at, float(first_touched_cell(space, part, from_ray, to_ray, 512u)));
+
+  // Both kinds of light.
+  EpipolarBlock sun_space = space;
+  sun_space.distance = 0.0f;
+  sun_space.inverse_distance = 0.0f;
+  put(outputs, at, float(phi_through(space, 0.3f * t, 0.7f)));
+  put(outputs, at, float(phi_at(sun_space, angle, t)));
+  put(outputs, at, float(phi_of_open_end(space, angle)));
+  put(outputs, at, crossing_of(space, 0.4f * phi));
+  put(outputs, at, crossing_of(sun_space, phi));
+  put(outputs, at, float(phi_order_at(space, angle, t)));
+  put(outputs, at, float(phi_order_at(sun_space, angle, t)));
+  put(outputs, at, float(phi_order_of_open_end(space, angle)));
+  put(outputs, at, float(phi_from_order(space, Order(0.6f * float(alpha)))));
+  put(outputs, at, float(phi_from_order(sun_space, Order(t))));
+  put_cells_of_alpha(outputs, at, space, k_equal_alpha, alpha);
+  put_cells_of_alpha(outputs, at, space, k_root_of_alpha, alpha);
+  put_cells_of_alpha(outputs, at, space, k_root_of_complement, alpha);
+  PhiCells own = own_cells(complement, 1.0f + g, Cell(512.0f), 0.3f * complement, 0.6f * complement);
+  put(outputs, at, own.first);
+  put(outputs, at, own.per_cell);
+  put(outputs, at, float(phi_of_cell(own, Cell(100.0f * float(alpha)))));
+  put(outputs, at, float(cell_of_phi(own, phi)));
+
+  put(outputs, at, to_light(light, a));
+  put(outputs, at, light_above(light, ray, g));
+  // A layer whose top lies above the eye or below it; a lamp and a sun above its top.
+  MediumBlock layer = medium;
+  layer.top = g;
+  LightBlock lamp = light;
+  lamp.from_eye = 2.0f * l + vec3(0.0f, 4.0f, 0.0f);
+  LightBlock sun = light;
+  sun.is_near = 0.0f;
+  sun.from_eye = normalize(vec3(l.x, abs(l.y) + 0.2f, l.z));
+  put(outputs, at, part_in_medium(layer, ray.y, t));
+  put(outputs, at, light_path(layer, lamp, ray));
+  put(outputs, at, light_path(layer, sun, ray));
+  put(outputs, at, plane_share(light, a));
+  put(outputs, at, plane_uv(light, a));
+  vec4 clip_point = plane_clip(light, a);
+  put(outputs, at, vec3(clip_point.x, clip_point.y, clip_point.z));
+  put(outputs, at, clip_point.w);
+  put(outputs, at, plane_z(light, 0.25f * float(alpha)));
+  SunRay sun_ray_of_layer = sun_ray(layer, sun, ray, t);
+  put(outputs, at, sun_ray_of_layer.entry);
+  put(outputs, at, sun_ray_of_layer.exit);
+  put(outputs, at, sun_ray_of_layer.path);
+  put(outputs, at, sun_ray_of_layer.slope);
+  put(outputs, at, mean_decay(t));
+  SunRay falling;
+  falling.entry = 0.0f;
+  falling.exit = t;
+  falling.path = t;
+  falling.slope = g;
+  put(outputs, at, integrate_sun_run(medium, falling, 0.2f * t, 0.9f * t));
+  put(outputs, at, sun_scale(light, medium, k_henyey_greenstein, alpha));
 }
 
 #endif

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/scene.h"
+#include "support/grid_bits.h"
 #include "support/random.h"
 #include "support/view_rays.h"
 
@@ -196,7 +197,7 @@ TEST(EpipolarBlock, SpansTheRangeWithItsCells) {
   const Range range = alpha_range(scene::camera_frame(view.camera, view.size),
                                   glm::normalize(view.lights[0].position - view.camera.eye));
   EXPECT_FLOAT_EQ(static_cast<float>(block.alpha_min), static_cast<float>(range.lower));
-  EXPECT_NEAR(static_cast<double>(block.alpha_min + 100.0f * block.alpha_step), range.upper, 1e-6);
+  EXPECT_NEAR(static_cast<double>(shaders::alpha_of_cell(block, shaders::Cell(100.0f))), range.upper, 1e-6);
   EXPECT_FLOAT_EQ(block.distance, static_cast<float>(std::sqrt(9.0 + 4.0 + 25.0)));
 }
 
@@ -284,7 +285,10 @@ TEST(PixelExact, RowsAreNowhereMoreThanAPixelApart) {
         const double plane = static_cast<double>(space.theta_step) /
                              (1 + static_cast<double>(space.theta_growth) * std::cos(from_middle));
         most_theta = std::max(most_theta, glm::length(glm::cross(axes.axis, a)) * plane / pixel);
-        most_alpha = std::max(most_alpha, static_cast<double>(space.alpha_step) / pixel);
+        const double row = tests::cells_of_alpha(space, angle_between(axes.axis, a));
+        most_alpha = std::max(most_alpha, (tests::alpha_of_cells(space, row + 0.5) -
+                                           tests::alpha_of_cells(space, std::max(row - 0.5, 0.0))) /
+                                              pixel);
       }
       // 1.5 %: the border is sampled in 256 steps of θ, and a pixel is measured over its own width.
       EXPECT_LT(most_theta, 1.015);
@@ -292,6 +296,141 @@ TEST(PixelExact, RowsAreNowhereMoreThanAPixelApart) {
       EXPECT_GT(most_theta, 0.5);
       EXPECT_GT(most_alpha, 0.5);
     }
+  }
+}
+
+/// A box, an eye and a light, each in any place, and the epipolar space that they make.
+struct BoxScene {
+  scene::Box box;
+  scene::View view;
+};
+
+/// @param kind of the light: 0 beside the box or in it, 1 far away, 2 a sun
+BoxScene random_box_scene(Random& random, int kind) {
+  BoxScene scene;
+  const glm::dvec3 centre = random.in_box(1.0);
+  for (int i = 0; i < 2; ++i)
+    scene.box.include(glm::vec3(centre + random.in_box(random.logarithmic(0.2, 3.0))));
+  scene.view.camera.eye = random.in_box(4.0);
+  scene.view.camera.target = scene.view.camera.eye + random.direction();
+  scene.view.camera.up = random.direction();
+  scene.view.size = {80, 60};
+  scene::Light& light = scene.view.lights[0];
+  if (kind == 0) light.position = random.in_box(4.0);
+  if (kind == 1) light.position = random.logarithmic(5, 500) * random.direction();
+  if (kind == 2) light = scene::sun("", random.direction(), glm::vec3(1.0f));
+  return scene;
+}
+
+/// The θ, in cells, and φ of a point; false where the grid does not cover its θ, or the point is within a
+/// thousandth of a cell of a border, where single precision decides on its plane.
+bool plane_and_phi(const shaders::EpipolarBlock& space, glm::dvec3 relative, std::size_t& plane,
+                   double& phi) {
+  const double x = glm::dot(relative, glm::dvec3(space.u)), y = glm::dot(relative, glm::dvec3(space.f)),
+               z = glm::dot(relative, glm::dvec3(space.axis)), across = std::hypot(x, y);
+  const double cell = tests::cells_of_theta(space, std::atan2(y, x));
+  const double count = std::round(static_cast<double>(2.0f * space.theta_half / space.theta_step));
+  if (cell < 0.0 || cell >= count || std::abs(cell - std::round(cell)) < 1e-3) return false;
+  plane = static_cast<std::size_t>(cell);
+  phi = shaders::is_sun(space) ? across : std::atan2(across, static_cast<double>(space.distance) - z);
+  return true;
+}
+
+class BoxRanges : public testing::TestWithParam<int> {};
+
+TEST_P(BoxRanges, HoldThePhiOfEveryPointAndLittleMore) {
+  Random random(30);
+  int about_the_axis = 0;
+  double length = 0.0, needed = 0.0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const BoxScene scene = random_box_scene(random, GetParam());
+    const int planes = trial % 4 == 0 ? 7 : 128;
+    const shaders::EpipolarBlock space =
+        epipolar_block(scene.view, scene.view.lights[0], {8, planes, 128}, Ranges::frame,
+                       trial % 2 == 0 ? ThetaCells::fitted : ThetaCells::equal);
+    const glm::dvec3 eye = scene.view.camera.eye;
+    const std::vector<glm::vec2> ranges = box_ranges(scene.box, eye, space, planes);
+    ASSERT_EQ(ranges.size(), static_cast<std::size_t>(planes));
+    const glm::dvec3 lower(scene.box.lower), size = glm::dvec3(scene.box.upper) - lower;
+    // On the axis every half-plane has φ = 0 before the light, π beyond it.
+    std::vector<Range> found(ranges.size(), Range{10.0 * static_cast<double>(shaders::k_endless_phi), -1.0});
+    for (double z = -10.0; z < 10.0; z += 1e-3) {
+      const glm::dvec3 at = (eye + z * glm::dvec3(space.axis) - lower) / size;
+      if (at != glm::clamp(at, glm::dvec3(0.0), glm::dvec3(1.0))) continue;
+      const double phi = !shaders::is_sun(space) && z > static_cast<double>(space.distance) ? pi : 0.0;
+      for (Range& range : found) {
+        range.lower = std::min(range.lower, phi);
+        range.upper = std::max(range.upper, phi);
+      }
+    }
+    for (int sample = 0; sample < 60000; ++sample) {
+      // On edges, where the other extremes are, and anywhere.
+      glm::dvec3 at(random.uniform(), random.uniform(), random.uniform());
+      const int along = sample % 4;
+      for (int i = 0; i < 3 && along < 3; ++i) {
+        if (i != along) at[i] = std::round(at[i]);
+      }
+      std::size_t plane = 0;
+      double phi = 0.0;
+      if (!plane_and_phi(space, lower + at * size - eye, plane, phi)) continue;
+      ASSERT_GE(phi, static_cast<double>(ranges[plane].x)) << trial << ", plane " << plane;
+      ASSERT_LE(phi, static_cast<double>(ranges[plane].y)) << trial << ", plane " << plane;
+      found[plane].lower = std::min(found[plane].lower, phi);
+      found[plane].upper = std::max(found[plane].upper, phi);
+    }
+    // In units of the largest φ, so that suns' scenes count alike.
+    double largest = 0.0;
+    for (const glm::vec2& range : ranges) largest = std::max(largest, static_cast<double>(range.y));
+    for (std::size_t plane = 0; planes == 128 && plane < ranges.size(); ++plane) {
+      if (found[plane].upper < 0.0) continue;
+      length += static_cast<double>(ranges[plane].y - ranges[plane].x) / largest;
+      needed += (found[plane].upper - found[plane].lower) / largest;
+    }
+    about_the_axis +=
+        std::all_of(ranges.begin(), ranges.end(), [](glm::vec2 range) { return range.x == 0.0f; });
+  }
+  EXPECT_GT(about_the_axis, 5);
+  RecordProperty("more", std::to_string(length / needed - 1.0));
+  EXPECT_LT(length, 1.05 * needed) << "what the cells' width takes, and too few points";
+}
+
+INSTANTIATE_TEST_SUITE_P(NearFarAndSun, BoxRanges, testing::Values(0, 1, 2));
+
+TEST(BoxRange, OfABoxThatIsNotMetIsEmpty) {
+  scene::View view;
+  view.camera.eye = {0, 0, 0};
+  view.lights[0].position = {0, 10, 0};
+  const shaders::EpipolarBlock space =
+      epipolar_block(view, view.lights[0], {8, 64, 128}, Ranges::full, ThetaCells::equal);
+  scene::Box box;
+  for (const glm::vec2& range : box_ranges(box, view.camera.eye, space, 64))
+    EXPECT_EQ(range, glm::vec2(0.0f));
+  box.include({2, -1, -1});
+  box.include({3, 1, 1});
+  int met = 0;
+  for (const glm::vec2& range : box_ranges(box, view.camera.eye, space, 64)) {
+    met += range.y > 0.0f;
+    EXPECT_TRUE(range == glm::vec2(0.0f) || range.x > 0.0f);
+  }
+  // Of the turn it takes twice atan(1/2), and parts of two cells more.
+  EXPECT_NEAR(met, 64 * 2 * std::atan(0.5) / (2 * pi), 2.0);
+}
+
+TEST(BoxRange, ReachesPiBeyondTheLight) {
+  scene::View view;
+  view.camera.eye = {0, 0, 0};
+  view.lights[0].position = {0, 2, 0};
+  const shaders::EpipolarBlock space =
+      epipolar_block(view, view.lights[0], {8, 64, 128}, Ranges::full, ThetaCells::equal);
+  scene::Box box;
+  box.include({-1, 3, -1});
+  box.include({1, 4, 1});
+  for (const glm::vec2& range : box_ranges(box, view.camera.eye, space, 64)) {
+    EXPECT_FLOAT_EQ(range.y, static_cast<float>(pi));
+    // The lowest is on the edges of the lower face, from the middle of one to its end, less what a cell's
+    // width takes.
+    EXPECT_GT(range.x, pi / 2 + std::atan(1.0 / std::sqrt(2.0)) - 0.02);
+    EXPECT_LT(range.x, pi / 2 + std::atan(1.0) + 1e-6);
   }
 }
 

@@ -11,7 +11,7 @@ TEST(MediumBlock, ExtinctionIsScatteringPlusAbsorption) {
                                 .phase = scene::PhaseFunction::henyey_greenstein,
                                 .g = 0.4f,
                                 .rayleigh_weight = 0.3f};
-  const shaders::MediumBlock block = medium_block(medium);
+  const shaders::MediumBlock block = medium_block(medium, {1.0, 2.0, 3.0});
   EXPECT_EQ(block.sigma_s, medium.sigma_s);
   EXPECT_EQ(block.sigma_t, medium.sigma_s + medium.sigma_a);
   EXPECT_EQ(block.g, 0.4f);

@@ -20,17 +20,6 @@ std::size_t face_of(glm::dvec3 direction) {
   return static_cast<std::size_t>(shaders::cube_point(glm::vec3(direction)).face);
 }
 
-scene::CameraFrame random_camera(Random& random) {
-  const glm::dvec3 forward = random.direction();
-  const glm::dvec3 right = glm::normalize(glm::cross(forward, random.direction()));
-  return {.eye = random.in_box(10),
-          .right = right,
-          .up = glm::cross(right, forward),
-          .forward = forward,
-          .half_width = random.logarithmic(0.02, 3),
-          .half_height = random.logarithmic(0.02, 3)};
-}
-
 /// From the light to a point that the camera may see, unit.
 glm::dvec3 random_seen(Random& random, const scene::CameraFrame& camera, glm::dvec3 light) {
   // As often on the image's border as inside it.
@@ -51,7 +40,7 @@ TEST(NeededFaces, AreThoseOnWhichWhatIsSeenFallsAndFewMore) {
   int needed_faces_in_all = 0, missed = 0, idle = 0;
   constexpr int k_views = 300;
   for (int i = 0; i < k_views; ++i) {
-    const scene::CameraFrame camera = random_camera(random);
+    const scene::CameraFrame camera = tests::random_camera(random);
     const glm::dvec3 light = camera.eye + random.logarithmic(0.01, 100) * random.direction();
     const double reach = i % 2 == 0 ? 0.0 : random.logarithmic(0.001, 1.0);
     const CubeFaces needed = needed_faces(camera, light, reach);

@@ -228,7 +228,7 @@ TEST(MethodChoice, FitsAutomaticCountsToTheViewAndItsLights) {
     choice.fit(view);
     return vsv_of(choice).volume.resolution;
   };
-  EXPECT_EQ(fitted("vsv"), (epipolar::Resolution{512, 1024, 512}));
+  EXPECT_EQ(fitted("vsv"), (epipolar::Resolution{256, 1024, 512}));
   const epipolar::Resolution in_view = fitted("vsv:alpha=auto:theta=auto:phi=auto");
   EXPECT_EQ(in_view.phi, 512);
   EXPECT_GT(in_view.theta, 512);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "epipolar/space_math.h"
+#include "support/grid_bits.h"
 #include "support/random.h"
 
 /// shaders/epipolar/grid.glsl: which cell holds what.
@@ -16,6 +17,11 @@ float number(Angle angle) {
   return static_cast<float>(angle);
 }
 
+template <class Number>
+double exact(Number value) {
+  return static_cast<double>(value);
+}
+
 Cell cells_from_start(uint boundary, float further = 0.0f) {
   return Cell(static_cast<float>(boundary) + further);
 }
@@ -25,10 +31,11 @@ Angle wrapped_about_zero(Angle angle) {
   return Angle(std::remainder(number(angle), number(k_turn)));
 }
 
-EpipolarBlock make_range(float alpha_min, float alpha_max, uint count) {
+EpipolarBlock make_range(float alpha_min, float alpha_max, uint count, float spacing = k_equal_alpha) {
   EpipolarBlock space{};
   space.alpha_min = Angle(alpha_min);
-  space.alpha_step = Angle((alpha_max - alpha_min) / static_cast<float>(count));
+  space.alpha_spacing = spacing;
+  space.alpha_step = spaced_alpha(space, Angle(alpha_max)) / static_cast<float>(count);
   return space;
 }
 
@@ -112,15 +119,86 @@ TEST_P(ThetaCell, HoldsWhatIsNearerToItsCentreThanToOthers) {
 
 INSTANTIATE_TEST_SUITE_P(Counts, ThetaCell, testing::Values(1u, 2u, 3u, 64u, 333u, 2048u, 16384u));
 
-TEST(AlphaCell, OfEachCentreIsThatCell) {
+/// The range of α and how it is cut: as epipolar_block asks for it, and between.
+struct AlphaRange {
+  float lower, upper, spacing;
+};
+
+class AlphaCells : public testing::TestWithParam<AlphaRange> {};
+
+TEST_P(AlphaCells, CoverTheRange) {
+  const auto& [lower, upper, spacing] = GetParam();
   for (uint count : {1u, 5u, 512u, 4096u}) {
-    const EpipolarBlock space = make_range(0.7f, 1.9f, count);
+    const EpipolarBlock space = make_range(lower, upper, count, spacing);
+    EXPECT_NEAR(number(alpha_of_cell(space, Cell(0.0f))), lower, 1e-6f);
+    EXPECT_NEAR(number(alpha_of_cell(space, cells_from_start(count))), upper, 2e-6f);
+  }
+}
+
+TEST_P(AlphaCells, AreThoseOfDoublePrecision) {
+  const auto& [lower, upper, spacing] = GetParam();
+  tests::Random random(13);
+  const EpipolarBlock space = make_range(lower, upper, 512, spacing);
+  for (int n = 0; n < 10000; ++n) {
+    const auto alpha = static_cast<float>(random.uniform(exact(lower), exact(upper)));
+    const double cell = tests::cells_of_alpha(space, exact(alpha));
+    // A root and the start's are right to 1.2e-7 and 2.4e-7 or less.
+    EXPECT_NEAR(exact(cell_of_alpha(space, Angle(alpha))), cell,
+                5e-7 / exact(space.alpha_step) + 1e-6 * cell);
+    EXPECT_NEAR(exact(alpha_of_cell(space, Cell(static_cast<float>(cell)))), exact(alpha), 3e-6);
+  }
+}
+
+TEST_P(AlphaCells, AreNarrowWhereTheirRootIsSmall) {
+  const auto& [lower, upper, spacing] = GetParam();
+  const EpipolarBlock space = make_range(lower, upper, 64, spacing);
+  for (uint i = 0; i < 64; ++i) {
+    const double from = exact(alpha_of_cell(space, cells_from_start(i))),
+                 to = exact(alpha_of_cell(space, cells_from_start(i + 1)));
+    const double middle = 0.5 * (from + to);
+    // dα = 2 √α d√α, where the middle of a cell stands for the mean of its borders' roots.
+    const double slope = spacing == k_root_of_alpha        ? std::sqrt(from) + std::sqrt(to)
+                         : spacing == k_root_of_complement ? std::sqrt(k_pi - from) + std::sqrt(k_pi - to)
+                                                           : 1.0;
+    EXPECT_NEAR(to - from, slope * exact(space.alpha_step), 2e-6) << middle;
+  }
+}
+
+TEST_P(AlphaCells, OfEachCentreAreThatCell) {
+  const auto& [lower, upper, spacing] = GetParam();
+  for (uint count : {1u, 5u, 512u, 4096u}) {
+    const EpipolarBlock space = make_range(lower, upper, count, spacing);
     for (uint i = 0; i < count; ++i) {
-      const Angle centre = space.alpha_min + (static_cast<float>(i) + 0.5f) * space.alpha_step;
+      const Angle from = alpha_of_cell(space, cells_from_start(i)),
+                  centre = alpha_of_cell(space, cells_from_start(i, 0.5f));
+      if (centre - from < Angle(1e-6f)) continue;  // what single precision tells apart near π
       EXPECT_EQ(alpha_cell(space, centre, count), i);
     }
   }
 }
+
+TEST_P(AlphaCells, OfTheFirstInShadowTheCentreLiesBehindTheOccluderAndTheOneBeforeDoesNot) {
+  const auto& [lower, upper, spacing] = GetParam();
+  tests::Random random(11);
+  const uint count = 512;
+  const EpipolarBlock space = make_range(lower, upper, count, spacing);
+  for (int n = 0; n < 10000; ++n) {
+    const Angle alpha(static_cast<float>(random.uniform(exact(lower), exact(upper))));
+    const uint i = first_shadowed_cell(space, alpha, count);
+    EXPECT_GE(alpha_of_cell(space, cells_from_start(i, 0.5f)), alpha - Angle(2e-6f));
+    if (i > 0) {
+      EXPECT_LE(alpha_of_cell(space, cells_from_start(i - 1, 0.5f)), alpha + Angle(2e-6f));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Spacings, AlphaCells,
+                         testing::Values(AlphaRange{0.7f, 1.9f, k_equal_alpha},
+                                         AlphaRange{0.0f, 3.1f, k_equal_alpha},
+                                         AlphaRange{0.0f, 0.6f, k_root_of_alpha},
+                                         AlphaRange{0.2f, 1.9f, k_root_of_alpha},
+                                         AlphaRange{2.4f, k_pi, k_root_of_complement},
+                                         AlphaRange{1.0f, 3.0f, k_root_of_complement}));
 
 TEST(AlphaCell, IsTheNearestOutsideTheRange) {
   const EpipolarBlock space = make_range(0.7f, 1.9f, 16);
@@ -143,19 +221,6 @@ TEST(FirstShadowedCell, StartsAtTheNearestBoundary) {
   EXPECT_EQ(at(9.4f), 9u);
 }
 
-TEST(FirstShadowedCell, TheCentreOfTheFirstLiesBehindTheOccluderAndTheOneBeforeDoesNot) {
-  tests::Random random(11);
-  const uint count = 512;
-  const EpipolarBlock space = make_range(0.3f, 2.9f, count);
-  for (int n = 0; n < 10000; ++n) {
-    const Angle alpha(static_cast<float>(random.uniform(0.3, 2.9)));
-    const uint i = first_shadowed_cell(space, alpha, count);
-    const Angle centre = space.alpha_min + (static_cast<float>(i) + 0.5f) * space.alpha_step;
-    EXPECT_GE(centre, alpha - Angle(1e-6f));
-    EXPECT_LE(centre - space.alpha_step, alpha + Angle(1e-6f));
-  }
-}
-
 TEST(FirstShadowedCell, AnOccluderNearerTheAxisThanTheRangeShadowsAllOfIt) {
   const EpipolarBlock space = make_range(1.0f, 2.0f, 10);
   EXPECT_EQ(first_shadowed_cell(space, Angle(0.0f), 10), 0u);
@@ -171,7 +236,7 @@ TEST(FirstShadowedCell, AnOccluderBeyondTheRangeShadowsNone) {
 
 TEST(PhiCells, CoverTheRangeAndGrowFromTheFirstToTheLast) {
   for (float growth : {0.0f, 0.5f, 4.0f}) {
-    const PhiCells cells{Angle(2.0f), growth, Cell(256.0f)};
+    const PhiCells cells = shared_cells(Angle(2.0f), growth, Cell(256.0f));
     EXPECT_EQ(phi_of_cell(cells, Cell(0.0f)), Angle(0.0f));
     EXPECT_FLOAT_EQ(number(phi_of_cell(cells, Cell(256.0f))), 2.0f);
     const Angle first = phi_of_cell(cells, Cell(1.0f)),
@@ -183,7 +248,7 @@ TEST(PhiCells, CoverTheRangeAndGrowFromTheFirstToTheLast) {
 }
 
 TEST(PhiCells, WithoutGrowthAreEqual) {
-  const PhiCells cells{Angle(3.0f), 0.0f, Cell(128.0f)};
+  const PhiCells cells = shared_cells(Angle(3.0f), 0.0f, Cell(128.0f));
   for (float k = 0.0f; k <= 128.0f; k += 0.5f)
     EXPECT_FLOAT_EQ(number(phi_of_cell(cells, Cell(k))), 3.0f * k / 128.0f);
 }
@@ -191,15 +256,63 @@ TEST(PhiCells, WithoutGrowthAreEqual) {
 TEST(PhiCells, AreFoundAgainByTheirPhi) {
   tests::Random random(12);
   for (int i = 0; i < 20000; ++i) {
-    const PhiCells cells{Angle(static_cast<float>(random.uniform(1e-3, 3.14))),
-                         static_cast<float>(random.uniform(0, 4)), Cell(512.0f)};
+    const PhiCells cells = shared_cells(Angle(static_cast<float>(random.uniform(1e-3, 3.14))),
+                                        static_cast<float>(random.uniform(0, 4)), Cell(512.0f));
     const auto cell = static_cast<float>(random.uniform(0, 512));
     EXPECT_NEAR(static_cast<float>(cell_of_phi(cells, phi_of_cell(cells, Cell(cell)))), cell,
                 3e-6f * cell + 1e-30f);
   }
-  const PhiCells cells{Angle(1.0f), 2.0f, Cell(512.0f)};
+  const PhiCells cells = shared_cells(Angle(1.0f), 2.0f, Cell(512.0f));
   EXPECT_EQ(cell_of_phi(cells, Angle(0.0f)), Cell(0.0f));
   EXPECT_FLOAT_EQ(static_cast<float>(cell_of_phi(cells, Angle(1.0f))), 512.0f);
+}
+
+TEST(OwnCells, CutARangeOfTheSharedOnes) {
+  tests::Random random(14);
+  for (int i = 0; i < 5000; ++i) {
+    const auto phi_max = static_cast<float>(random.logarithmic(1e-3, 100.0));
+    const auto growth = static_cast<float>(random.uniform(0, 4));
+    const auto lower = static_cast<float>(random.uniform(0.0, 0.9)) * phi_max;
+    const float upper = lower + static_cast<float>(random.uniform(0.05, 1.0)) * (phi_max - lower);
+    const PhiCells shared = shared_cells(Angle(phi_max), growth, Cell(256.0f));
+    const PhiCells own = own_cells(Angle(phi_max), growth, Cell(256.0f), Angle(lower), Angle(upper));
+    EXPECT_NEAR(number(phi_of_cell(own, Cell(0.0f))), lower, 3e-6f * phi_max);
+    EXPECT_NEAR(number(phi_of_cell(own, Cell(256.0f))), upper, 3e-6f * phi_max);
+    // Equal in what the shared ones are equal in.
+    const auto shared_at = [&](float cell) {
+      return static_cast<float>(cell_of_phi(shared, phi_of_cell(own, Cell(cell))));
+    };
+    const float width = (shared_at(256.0f) - shared_at(0.0f)) / 256.0f;
+    const auto cell = static_cast<float>(random.uniform(0, 256));
+    EXPECT_NEAR(shared_at(cell), shared_at(0.0f) + width * cell, 2e-3f);
+    // Found again, to what single precision leaves of a place, in cells.
+    EXPECT_NEAR(static_cast<float>(cell_of_phi(own, phi_of_cell(own, Cell(cell)))), cell,
+                2e-6f / own.per_cell);
+    // What lies outside of them is before the first or behind the last.
+    EXPECT_LT(cell_of_phi(own, Angle(lower - 1e-2f * phi_max)), Cell(0.0f));
+    EXPECT_GT(cell_of_phi(own, Angle(upper + 1e-2f * phi_max)), Cell(256.0f));
+  }
+}
+
+TEST(OwnCells, OfTheWholeRangeAreTheSharedOnes) {
+  const PhiCells shared = shared_cells(Angle(2.0f), 1.5f, Cell(512.0f));
+  const PhiCells own = own_cells(Angle(2.0f), 1.5f, Cell(512.0f), Angle(0.0f), Angle(2.0f));
+  EXPECT_EQ(own.first, 0.0f);
+  EXPECT_FLOAT_EQ(own.per_cell, shared.per_cell);
+}
+
+TEST(OwnCells, OfAnEmptyRangeAreNarrowAndFinite) {
+  for (const Angle at : {Angle(0.0f), Angle(1.0f), Angle(2.0f)}) {
+    for (const Angle upper : {at, 0.5f * at}) {
+      const PhiCells own = own_cells(Angle(2.0f), 1.5f, Cell(128.0f), at, upper);
+      EXPECT_LT(number(phi_of_cell(own, Cell(128.0f)) - phi_of_cell(own, Cell(0.0f))), 2e-5f);
+      for (const float phi : {0.0f, 0.5f, 1.0f, 2.0f, 1e30f}) {
+        EXPECT_TRUE(std::isfinite(static_cast<float>(cell_of_phi(own, Angle(phi))))) << phi;
+      }
+      EXPECT_LE(cell_of_phi(own, at - Angle(0.1f)), Cell(0.0f));
+      EXPECT_GE(cell_of_phi(own, at + Angle(0.1f)), Cell(128.0f));
+    }
+  }
 }
 
 TEST(GridWord, EveryWordHasAPlaceOfItsOwn) {

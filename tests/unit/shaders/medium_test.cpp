@@ -44,6 +44,7 @@ MediumBlock make_medium(glm::vec3 sigma_t, float g, float rayleigh_weight = 0.0f
   medium.sigma_t = sigma_t;
   medium.g = g;
   medium.rayleigh_weight = rayleigh_weight;
+  medium.top = k_no_top;
   return medium;
 }
 
@@ -150,6 +151,7 @@ TEST(AirlightIntegrand, EqualsTheDoublePrecisionOne) {
   for (int i = 0; i < 30000; ++i) {
     EpipolarBlock space{};
     space.distance = static_cast<float>(random.logarithmic(0.1, 100));
+    space.inverse_distance = 1.0f / space.distance;
     const uint kind = random.bits() % 4;
     const MediumBlock medium = make_medium(glm::vec3(random.logarithmic(1e-4, 0.1), 0.01, 0.0),
                                            static_cast<float>(random.uniform(-0.8, 0.8)), 0.4f);
@@ -172,6 +174,7 @@ TEST(AirlightIntegrand, EqualsTheDoublePrecisionOne) {
 TEST(AirlightIntegrand, IsZeroAtInfinityWhereTheMediumAbsorbs) {
   EpipolarBlock space{};
   space.distance = 2.0f;
+  space.inverse_distance = 1.0f / space.distance;
   const MediumBlock medium = make_medium({0.1f, 0.2f, 0.3f}, 0.0f);
   for (const Angle complement : {Angle(1e-5f), Angle(1.0f), Angle(3.0f)}) {
     for (const Angle phi : {complement, 1.1f * complement}) {
@@ -190,6 +193,7 @@ TEST(IntegrateCell, MatchesHighOrderQuadratureOnTheCellsOfAGrid) {
   for (int i = 0; i < 3000; ++i) {
     EpipolarBlock space{};
     space.distance = static_cast<float>(random.logarithmic(0.5, 20));
+    space.inverse_distance = 1.0f / space.distance;
     const uint kind = random.bits() % 4;
     const MediumBlock medium = make_medium(glm::vec3(static_cast<float>(random.logarithmic(1e-3, 0.5))),
                                            static_cast<float>(random.uniform(-0.7, 0.7)), 0.4f);
@@ -224,6 +228,7 @@ TEST(IntegrateCell, SumsToTheIntegralOfTheWholeRay) {
   for (int i = 0; i < 1000; ++i) {
     EpipolarBlock space{};
     space.distance = 1.0f;
+    space.inverse_distance = 1.0f / space.distance;
     const uint kind = random.bits() % 4;
     const MediumBlock medium = make_medium(glm::vec3(static_cast<float>(random.logarithmic(1e-3, 3))), 0.6f);
     const Angle complement = single(random.logarithmic(1e-3, 3.1));
@@ -273,6 +278,7 @@ TEST(IntegrateRun, FollowsNarrowLobesAndHeavyExtinction) {
       for (double complement : {pi - 1e-4, pi - 3e-3, pi - 0.1, 2.0, 0.5, 0.03, 1e-3, 1e-5}) {
         EpipolarBlock space{};
         space.distance = 2.0f;
+        space.inverse_distance = 1.0f / space.distance;
         const MediumBlock medium = make_medium(glm::vec3(sigma), g, 0.3f);
         for (uint kind : {k_henyey_greenstein, k_hoffman_preetham}) {
           const auto run = [&](double from, double to) {
@@ -300,6 +306,7 @@ TEST(IntegrateRun, FollowsNarrowLobesAndHeavyExtinction) {
 TEST(IntegrateRun, IsZeroWhereSinglePrecisionHasNoSuchNumber) {
   EpipolarBlock space{};
   space.distance = 5.0f;
+  space.inverse_distance = 1.0f / space.distance;
   for (float sigma : {20.0f, 1000.0f, 1e38f}) {
     const MediumBlock medium = make_medium(glm::vec3(sigma), 0.0f);
     for (float complement : {1e-5f, 1.0f, 3.0f, k_pi})
@@ -324,8 +331,10 @@ TEST(TablePlace, GrowsFromZeroToTwoAndIsTheInverseOfComplementAt) {
 TEST(AirlightScale, IsTheFactorBeforeTheIntegral) {
   EpipolarBlock space{};
   space.distance = 4.0f;
+  space.inverse_distance = 1.0f / space.distance;
   const MediumBlock medium = make_medium({0.5f, 0.25f, 0.125f}, 0.0f);
   LightBlock light{};
+  light.is_near = 1.0f;
   light.intensity = {1, 2, 3};
   const glm::vec3 scale = airlight_scale(space, light, medium, 0.5f);
   EXPECT_FLOAT_EQ(scale.x, 0.25f);

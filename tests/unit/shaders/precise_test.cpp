@@ -79,7 +79,7 @@ TEST(Precise, PositionsAndSinesAreNotReordered) {
 TEST(Precise, WhichSideOfAnEdgeARayPassesIsTheSameInAllPasses) {
   const std::span<const std::uint32_t> words = k_populate_screen_space_comp;
   expect_precise(words, {"eye_relative", "ordered_dot", "make_edge", "less_half_turns", "sine_of_quarter",
-                         "sine", "cosine", "row_angle", "row_ray"});
+                         "sine", "cosine", "alpha_of_cell", "row_angle", "row_ray"});
   // What calls them adds nothing of its own.
   const std::map<std::string, Arithmetic> functions = arithmetic_of(words);
   EXPECT_FALSE(functions.contains("corner"));

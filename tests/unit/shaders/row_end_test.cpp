@@ -49,6 +49,7 @@ float by_shader(const Scene& scene) {
   space.u = {1.0f, 0.0f, 0.0f};
   space.f = {0.0f, 1.0f, 0.0f};
   space.distance = static_cast<float>(scene.distance);
+  space.inverse_distance = static_cast<float>(1.0 / scene.distance);
   const EyeAngle angle{.sine = static_cast<float>(std::sin(scene.alpha)),
                        .cosine = static_cast<float>(std::cos(scene.alpha))};
   return static_cast<float>(phi_to_row_end(
@@ -104,6 +105,7 @@ TEST(PhiToRowEnd, OfARowParallelToThePlaneIsTheEndOfItsRay) {
   EpipolarBlock space{};
   space.axis = {0.0f, 0.0f, 1.0f};
   space.distance = 2.0f;
+  space.inverse_distance = 0.5f;
   const EyeAngle angle{.sine = 0.6f, .cosine = 0.8f};
   // u is downwards: the pixel's ray meets the floor, and the row's is the axis itself.
   const Angle d_alpha(-0.75f);  // α' = 0 to first order: 0.6 − 0.75 · 0.8
@@ -139,6 +141,7 @@ TEST(PhiToRowEnd, OfANearerPlaneIsThatOfThePlaneThere) {
   EpipolarBlock space{};
   space.axis = {0.0f, 0.0f, 1.0f};
   space.distance = 2.0f;
+  space.inverse_distance = 0.5f;
   const float half = std::sqrt(0.5f);
   const auto nearer =
       static_cast<float>(phi_to_row_end(space, {.sine = half, .cosine = half}, {half, 0.0f, half},
@@ -151,6 +154,7 @@ TEST(PhiToRowEnd, IsZeroWithoutAnythingToGoBy) {
   EpipolarBlock space{};
   space.axis = {0.0f, 0.0f, 1.0f};
   space.distance = 2.0f;
+  space.inverse_distance = 0.5f;
   EXPECT_EQ(phi_to_row_end(space, {.sine = 0.6f, .cosine = 0.8f}, {0.6f, 0.0f, 0.8f},
                            {0.0f, 1.0f, 0.0f, 1.0f}, Angle(0.001f), Angle(0.0f), 0.0f),
             Angle(0.0f));

@@ -28,6 +28,7 @@ EpipolarBlock make_space(glm::dvec3 axis, double distance) {
   space.u = glm::vec3(axes.u);
   space.f = glm::vec3(axes.f);
   space.distance = static_cast<float>(distance);
+  space.inverse_distance = static_cast<float>(1.0 / distance);
   return space;
 }
 

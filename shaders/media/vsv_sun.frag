@@ -1,0 +1,73 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "media/vsv_ray.glsl"
+#include "media/sun.glsl"
+
+// Airlight of a sun from the shadow volume, exact up to the visibility bits: each lit run between two changes of visibility in
+// closed form. With k_factored, that of the whole ray times the lit fraction of its samples (media/vsv_table.frag); with k_riemann,
+// the paper's sum over the centres of lit cells (media/vsv_riemann.frag). Deviation: a cell counts with what of it lies in the ray's
+// part in the medium.
+layout(constant_id = 6) const uint k_sum = 0;
+const uint k_runs = 0u;
+const uint k_factored = 1u;
+const uint k_riemann = 2u;
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  VsvRay ray = vsv_ray(pixel);
+  SunRay sun = sun_ray(medium, light, ray.direction, ray.distance);
+  // From s to the distance along the ray, within the medium.
+  float stretch = 1.0 / ray.angle.sine;
+  float grid_start = clamp(phi_of_cell(ray.cells, 0.0) * stretch, sun.entry, sun.exit);  // before it and …
+  float grid_end = clamp(phi_of_cell(ray.cells, float(k_phi_count)) * stretch, sun.entry, sun.exit);  // … beyond, all is lit
+  vec3 integral = vec3(0.0);
+  float lit_range = min(grid_start, grid_end);  // of the ray before the grid's end [m]
+  float dark_range = 0.0;
+  float lit_from = sun.entry;
+  bool is_lit = true;
+  uint before = ray.unknown;
+  uint carry = 0u;
+  uint last_word = ray.last_cell >> 5;
+  uvec4 words;
+  for (uint word = 0u; word <= last_word; ++word) {
+    if ((word & 3u) == 0u) words = texelFetch(grid_texels, ray.texel + int(word >> 2));
+    uint shadow = seen_bits(ray, words.x, word, before);
+    words.xyz = words.yzw;
+    uint inside = before_end(ray, word);
+    if (k_sum == k_factored) {
+      float weight = phi_of_cell(ray.cells, float(32u * word + 32u)) - phi_of_cell(ray.cells, float(32u * word));
+      dark_range += stretch * weight / 32.0 * float(bitCount(shadow & inside));
+      lit_range += stretch * weight / 32.0 * float(bitCount(~shadow & inside));
+    } else if (k_sum == k_riemann) {
+      for (uint lit = ~shadow & inside; lit != 0u; lit &= lit - 1u) {
+        float k = float(32u * word + uint(findLSB(lit)));
+        float from = clamp(phi_of_cell(ray.cells, k) * stretch, sun.entry, sun.exit);
+        float to = clamp(phi_of_cell(ray.cells, k + 1.0) * stretch, sun.entry, sun.exit);
+        float path = sun.path + sun.slope * (0.5 * (from + to) - sun.entry);
+        integral += (to - from) * exp(-min(medium.sigma_t * path, vec3(k_deepest)));
+      }
+    } else {
+      uint changes = (shadow ^ (shadow << 1 | carry)) & inside;
+      carry = shadow >> 31;
+      while (changes != 0u) {
+        float at = clamp(phi_of_cell(ray.cells, float(32u * word + uint(findLSB(changes)))) * stretch, sun.entry, sun.exit);
+        changes &= changes - 1u;
+        if (is_lit) integral += integrate_sun_run(medium, sun, lit_from, at);
+        is_lit = !is_lit;
+        lit_from = at;
+      }
+    }
+  }
+  if (k_sum == k_runs) {
+    if (is_lit) integral += integrate_sun_run(medium, sun, lit_from, sun.exit);
+    else if (goes_beyond(ray)) integral += integrate_sun_run(medium, sun, grid_end, sun.exit);
+  } else {
+    if (k_sum == k_factored) {
+      integral = integrate_sun_run(medium, sun, sun.entry, grid_end) * (lit_range / max(lit_range + dark_range, 1e-30));
+    } else {
+      integral += integrate_sun_run(medium, sun, sun.entry, grid_start);
+    }
+    if (goes_beyond(ray)) integral += integrate_sun_run(medium, sun, grid_end, sun.exit);
+  }
+  airlight = vec4(sun_scale(light, medium, k_phase, ray.alpha) * integral, 1.0);
+}
