@@ -1,10 +1,15 @@
 #!/usr/bin/env bash
-# The figures of README.md and docs/figures.md: `tests/bench/scenes.sh truth|accuracy|speed|curves|cost|leaks|causes [OUT]`.
+# The figures of README.md and docs/figures.md:
+# `tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|curves|cost|leaks|causes [OUT]`.
 # The paper's Tables 2 to 4 and the bandwidth: build/release/tests/bench/airlight_tables, after ./test.
 #
 # truth     the exact reference against itself refined, against rays, 256×256 and 512×512 pixels
 # accuracy  512×512 pixels, the default grid, against the reference
 # speed     1024×1024 pixels, a shadow cube of 1024², against 512 shadow rays a pixel
+# sun       five views by a sun, 512×512: the default cells, equal ones, one range of φ for all half-planes, and the populations
+# sun-speed the same at 1024×1024, a shadow map of 2048², against 512 shadow rays a pixel
+# sun-curves  the error as each count of the grid and the shadow map doubles
+# far       lamps 10² to 10⁵ m from the eye through the window, 512×512: fog as thin as lets their light arrive
 # curves    the error as each count of the grid doubles, the others at their defaults
 # cost      every population × integral × ranges, 1024×1024 pixels: time, error and stages (the paper's Table 1)
 # leaks     the three populations on closed and open models, 512×512 pixels
@@ -25,7 +30,18 @@ declare -A view=(
   [arboretum]="$scenes/arboretum_1644k.glb --eye=-8,3,34 --target 13,5,10 --fov 55 --light-position 18,9,2
     --intensity 1500 --sigma-s 0.03"
   [toroid]=toroid
+  [sun_sponza]="$scenes/sponza_262k.glb --eye=-12,3,-0.5 --target 0,5,0 --fov 60 --sun 0.35,1,0.15 --irradiance 10
+    --fog-top 16 --sigma-s 0.04 --sigma-a 0.01"
+  [sun_court]="$scenes/sponza_262k.glb --eye=-10,2,0.5 --target 0,6,0 --fov 60 --sun 0.9,0.6,0.05 --irradiance 10
+    --sigma-s 0.04"
+  [sun_fence]="$scenes/victorian_fence_19k.glb --eye 0.3,0.5,3 --target 0,0.4,0 --fov 45 --sun=-0.1,0.3,-1 --irradiance 10
+    --fog-top 4 --sigma-s 0.25"
+  [sun_maple]="$scenes/maple_198k.glb --eye=-2,2,11 --target 0.5,3.8,0 --fov 50 --sun 0.35,0.45,-1 --irradiance 10
+    --fog-top 12 --sigma-s 0.06 --phase henyey-greenstein --g 0.5"
+  [sun_window]="window --sun=-4,7,-20 --irradiance 30"
+  [nave]=nave
 )
+suns="sun_sponza sun_court sun_fence sun_maple sun_window nave"
 compare() { # SCENE OPTIONS...
   local scene=$1
   shift
@@ -53,6 +69,39 @@ case ${1:-} in
     for scene in window sponza maple; do
       compare "$scene" --size 1024x1024 --shadow-map 1024 -o "$out/speed_$scene" \
         --volume "vsv,vsv:scan=column,vsv:integral=riemann,$march" --quiet
+    done
+    ;;
+  sun)
+    for scene in $suns; do
+      compare "$scene" --size 512x512 -o "$out/sun_$scene" --frames 1 --quiet \
+        --volume "vsv,vsv:phi-cells=equal,vsv:ranges=alpha-phi,vsv:populate=conservative,vsv:integral=riemann,vsv:integral=factored"
+    done
+    ;;
+  sun-speed)
+    for scene in $suns; do
+      compare "$scene" --size 1024x1024 -o "$out/sun_speed_$scene" --quiet \
+        --volume "vsv,vsv:integral=riemann,vsv:populate=conservative,$march"
+    done
+    ;;
+  sun-curves)
+    grids=vsv
+    for n in 64 128 512; do grids+=,vsv:alpha=$n; done
+    for n in 256 512 2048 4096; do grids+=,vsv:theta=$n; done
+    for n in 128 256 1024 2048; do grids+=,vsv:phi=$n; done
+    for scene in sun_sponza sun_window nave; do
+      compare "$scene" --size 512x512 -o "$out/sun_curves_$scene" --volume "$grids" --frames 1 --quiet
+      for n in 1024 4096 8192; do
+        compare "$scene" --size 512x512 --shadow-map $n -o "$out/sun_map_${n}_$scene" --volume vsv --frames 1 --quiet
+      done
+    done
+    ;;
+  far)
+    for distance in 100 1000 10000 100000; do
+      # Towards the light from the eye of `window`, (0, 1.7, 9).
+      view[far]="window $(awk -v d=$distance 'BEGIN { n = sqrt(4.5 * 4.5 + 11 * 11 + 25 * 25); printf \
+        "--light-position=%.9g,%.9g,%.9g --intensity %g --sigma-s %g", -4.5 * d / n, 1.7 + 11 * d / n, 9 - 25 * d / n,
+        10 * d * d, 1 / d }')"
+      compare far --size 512x512 -o "$out/far_$distance" --volume vsv --frames 1 --quiet
     done
     ;;
   curves)
@@ -103,7 +152,7 @@ case ${1:-} in
     done
     ;;
   *)
-    echo "usage: tests/bench/scenes.sh truth|accuracy|speed|curves|cost|leaks|causes [OUT]" >&2
+    echo "usage: tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|curves|cost|leaks|causes [OUT]" >&2
     exit 2
     ;;
 esac
