@@ -54,15 +54,17 @@ bool is_rough(const frame::FrameInputs& inputs, std::uint32_t layer) {
   return std::abs(view.medium.g) > k_wide_lobe || std::max({depth.x, depth.y, depth.z}) > k_deep;
 }
 
+shaders::Angle alpha_max(const shaders::EpipolarBlock& space, const epipolar::Resolution& resolution) {
+  return shaders::alpha_of_cell(space, shaders::Cell(static_cast<float>(resolution.alpha)));
+}
+
 /// How many cells a ray must cross for the table to serve it: 0, any will do, unless the view comes so near
 /// to α = π, where φ_d ≤ π − α, that its rays may end within four of the widest cells.
 std::uint32_t direct_cells(const shaders::EpipolarBlock& space, const epipolar::Resolution& resolution) {
   constexpr std::uint32_t k_cells = 4;
   constexpr float k_widest = 1.8f;  // of φ_max / N_φ, at the largest growth (shaders/media/phi_growth.comp)
-  const shaders::Angle alpha_max =
-      shaders::alpha_of_cell(space, shaders::Cell(static_cast<float>(resolution.alpha)));
   const shaders::Angle reach = k_cells * k_widest * shaders::k_half_turn / static_cast<float>(resolution.phi);
-  return shaders::k_half_turn - alpha_max < reach ? k_cells : 0;
+  return shaders::k_half_turn - alpha_max(space, resolution) < reach ? k_cells : 0;
 }
 
 }  // namespace
@@ -74,7 +76,7 @@ void Vsv::load(const gpu::Context& context, const Variant& variant) {
   if (loaded_ == variant) return;
   const epipolar::Resolution& resolution = volume_.grid().resolution();
   const auto grid = epipolar::resolution_constants(resolution);
-  const std::array<gpu::Constant, 11> constants = {
+  const std::array<gpu::Constant, 12> constants = {
       grid[0],
       grid[1],
       grid[2],
@@ -85,15 +87,16 @@ void Vsv::load(const gpu::Context& context, const Variant& variant) {
       gpu::Constant(7, options_.integral == VsvIntegral::factored),
       gpu::Constant(8, options_.volume.populate == epipolar::Populate::conservative),
       gpu::Constant(9, variant.rough),
-      gpu::Constant(10, variant.layer)};
+      gpu::Constant(10, variant.layer),
+      gpu::Constant(11, variant.looks_away)};
   phi_growth_ = gpu::Pipeline::compute(k_phi_growth_comp, std::array{grid[0], constants[3]});
   if (variant.sun) {
     const std::uint32_t sum = options_.integral == VsvIntegral::table      ? 0
                               : options_.integral == VsvIntegral::factored ? 1
                                                                            : 2;
-    integrate_ =
-        frame::ScreenPass(k_vsv_sun_frag, std::array{grid[0], grid[1], grid[2], constants[3],
-                                                     gpu::Constant(6, sum), constants[8], constants[10]});
+    integrate_ = frame::ScreenPass(k_vsv_sun_frag,
+                                   std::array{grid[0], grid[1], grid[2], constants[3], gpu::Constant(6, sum),
+                                              constants[8], constants[10], constants[11]});
   } else if (options_.integral != VsvIntegral::riemann) {
     build_table_ = gpu::Pipeline::compute(k_vsv_table_build_comp, constants);
     integrate_ = frame::ScreenPass(k_vsv_table_frag, constants);
@@ -101,9 +104,10 @@ void Vsv::load(const gpu::Context& context, const Variant& variant) {
         gpu::Buffer(std::int64_t{table_rows(variant.rough)} * (resolution.phi + 2) * variant.channels * 16);
     table_texels_ = {context.limits(), table_, gpu::Format::rgba32f, "the table integral"};
   } else {
-    integrate_ = frame::ScreenPass(k_vsv_riemann_frag, std::array{grid[0], grid[1], grid[2], constants[3],
-                                                                  gpu::Constant(4, variant.light_textured),
-                                                                  constants[8], constants[9], constants[10]});
+    integrate_ = frame::ScreenPass(
+        k_vsv_riemann_frag,
+        std::array{grid[0], grid[1], grid[2], constants[3], gpu::Constant(4, variant.light_textured),
+                   constants[8], constants[9], constants[10], constants[11]});
   }
   loaded_ = variant;
 }
@@ -142,7 +146,8 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
   const bool is_grey = sigma_t.x == sigma_t.y && sigma_t.y == sigma_t.z;
   load(inputs.context,
        {static_cast<std::uint32_t>(inputs.view.medium.phase), is_grey ? 1u : 3u,
-        direct_cells(space, volume_.grid().resolution()), light_texture != nullptr, rough, is_sun, layer});
+        direct_cells(space, volume_.grid().resolution()), light_texture != nullptr, rough, is_sun, layer,
+        alpha_max(space, volume_.grid().resolution()) > 0.5f * shaders::k_half_turn});
   if (options_.phi_cells == PhiCells::growing)
     inputs.timer.time("ranges", [&] { phi_growth_.dispatch({1, 1, 1}); });
 

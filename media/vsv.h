@@ -61,6 +61,7 @@ class Vsv : public frame::Airlight {
     std::uint32_t phase, channels, direct, light_textured;
     bool rough, sun;
     std::uint32_t layer;
+    bool looks_away;
     bool operator==(const Variant&) const = default;
   };
   void load(const gpu::Context& context, const Variant& variant);

@@ -10,6 +10,8 @@ layout(constant_id = 3) const uint k_phase = 0;
 layout(constant_id = 8) const uint k_whole_voxels = 0;
 // k_no_layer or one of the others (layer.glsl).
 layout(constant_id = 10) const uint k_layer = 0;
+// Whether view rays of the frame look away from the light.
+layout(constant_id = 11) const uint k_looks_away = 0;
 
 layout(binding = k_surface_unit) uniform sampler2D surface_image;
 layout(binding = k_grid_unit) uniform usamplerBuffer grid_texels;
@@ -94,7 +96,7 @@ VsvRay vsv_ray(ivec2 pixel) {
     // Lit where the surface faces the light, but for what looks away from the light and ends within its first cell, on the light rays
     // next to the eye: that is as dark as they are beside the eye.
     bool is_dark = light_above(light, surface.xyz, surface.w * dot(surface.xyz, direction)) <= 0.0;
-    if (ray.last_valid < 0 && ray.angle.cosine < 0.0 && !is_dark) {
+    if (k_looks_away != 0u && ray.last_valid < 0 && ray.angle.cosine < 0.0 && !is_dark) {
       uint beside_eye = alpha_cell(space, 0.5 * k_pi, k_alpha_count);
       is_dark = (texelFetch(grid_texels, int((j * k_alpha_count + beside_eye) * k_texels_per_ray)).x & 1u) != 0u;
     }
