@@ -1,24 +1,18 @@
-#include <span>
 #include <string_view>
 
 #include <gtest/gtest.h>
 
-#include "quality/metrics.h"
 #include "reference/reference.h"
 #include "scene/import.h"
 #include "support/scenes.h"
 #include "support/truth.h"
+#include "unit/reference/fixtures.h"
 
 /// Rays against the truth without sampling: two ways to the same image, which meet as samples grow.
 namespace airlight::reference {
 namespace {
 
-double rrmse(const AirlightImage& image, const AirlightImage& truth) {
-  const auto values = [](const AirlightImage& of) {
-    return std::span<const float>(&of.radiance.data()->x, 3 * of.radiance.size());
-  };
-  return quality::airlight_error(values(image), values(truth)).rrmse;
-}
+using tests::rrmse;
 
 /// What Embree's single precision leaves between the images however many rays there are: it widens triangles
 /// by 1e-7 of their size, which is 4e-5 of the light on `half-space`, whose triangles are large; and moves

@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include "quality/metrics.h"
 #include "reference/fog_quadrature.h"
 #include "reference/shadow_intervals.h"
 #include "support/random.h"
@@ -17,27 +16,16 @@ namespace airlight::reference {
 namespace {
 
 using airlight::tests::Random;
+using tests::Crossing, tests::rrmse;
 
-/// Where the segment from the light at the origin to a point meets a triangle's plane, and on which side of
-/// each edge it passes, by volumes of tetrahedra: no formula is shared with the intervals.
-struct Crossing {
-  bool hides;
-  double margin;  ///< how far it is from being otherwise, relative to the volumes' factors
-};
-
+/// Whether a triangle hides a point from the light at the origin.
 Crossing crossing(const Corners& c, const glm::dvec3& point) {
-  const auto volume = [](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& d) {
-    return glm::dot(a, glm::cross(b, d)) / (glm::length(a) * glm::length(b) * glm::length(d) + 1e-300);
-  };
-  const double edges[3] = {volume(point, c[0], c[1]), volume(point, c[1], c[2]), volume(point, c[2], c[0])};
+  const Crossing inside = tests::passes_inside(c, point);
   const glm::dvec3 n = glm::normalize(normal(c));
   const double from = glm::dot(n, -c[0]), to = glm::dot(n, point - c[0]);
   const double scale = glm::length(point) + glm::length(c[0]);
-  const bool inside =
-      (edges[0] > 0 && edges[1] > 0 && edges[2] > 0) || (edges[0] < 0 && edges[1] < 0 && edges[2] < 0);
-  const double margin = std::min({std::abs(edges[0]), std::abs(edges[1]), std::abs(edges[2]),
-                                  std::abs(from) / scale, std::abs(to) / scale});
-  return {inside && from * to < 0.0, margin};
+  return {inside.hides && from * to < 0.0,
+          std::min({inside.margin, std::abs(from) / scale, std::abs(to) / scale})};
 }
 
 Occluders occluders_of(const std::vector<Corners>& triangles) {
@@ -60,13 +48,7 @@ TEST(ShadowIntervals, AgreeWithRaysCastOneByOne) {
   Random random(1);
   int shadowed = 0, lit = 0;
   for (int trial = 0; trial < 400; ++trial) {
-    std::vector<Corners> triangles;
-    for (int i = 0; i < 30; ++i) {
-      const glm::dvec3 centre = random.in_box(3.0);
-      const double size = random.logarithmic(0.01, 3.0);
-      triangles.push_back(
-          {centre + random.in_box(size), centre + random.in_box(size), centre + random.in_box(size)});
-    }
+    const std::vector<Corners> triangles = tests::random_triangles(random, 3.0);
     const glm::dvec3 eye = random.in_box(4.0);
     const double distance = trial % 2 == 0 ? 0.0 : random.logarithmic(0.1, 20.0);
     const ViewRay ray = random_ray(random, eye, distance);
@@ -77,13 +59,8 @@ TEST(ShadowIntervals, AgreeWithRaysCastOneByOne) {
       const double psi = ray.psi(random.uniform());
       const glm::dvec3 point =
           ray.D * ray.sin_alpha / std::sin(psi) * (ray.w * std::cos(psi) + ray.q * std::sin(psi));
-      bool hidden = false;
-      double margin = std::numeric_limits<double>::infinity();
-      for (const Corners& corners : triangles) {
-        const Crossing c = crossing(corners, point);
-        hidden |= c.hides;
-        margin = std::min(margin, c.margin);
-      }
+      const auto [hidden, margin] =
+          tests::crossing_of_all(triangles, [&](const Corners& corners) { return crossing(corners, point); });
       if (margin < 1e-11) continue;  // neither can know
       EXPECT_EQ(is_lit(shadows, psi), !hidden) << trial << " " << psi;
       ++(hidden ? shadowed : lit);
@@ -257,12 +234,6 @@ TEST(ShadowIntervals, ASpikySurfaceAroundTheLightLeaksNothing) {
   }
 }
 
-std::vector<float> values(const std::vector<glm::vec3>& image) {
-  std::vector<float> result;
-  for (const glm::vec3& radiance : image) result.insert(result.end(), {radiance.r, radiance.g, radiance.b});
-  return result;
-}
-
 /// The image with every triangle looked at for every pixel.
 std::vector<glm::vec3> without_hierarchy(const scene::Geometry& geometry, const scene::View& view) {
   const glm::dvec3 light = view.lights[0].position;
@@ -304,9 +275,7 @@ TEST(Exact, TheHierarchyLeavesNothingOut) {
   view.lights[0].intensity = glm::vec3(1.0f);
   view.medium.sigma_s = glm::vec3(0.1f);
   const auto expect_same = [&](const char* what) {
-    const double error = quality::airlight_error(values(Reference(clutter, view).exact().radiance),
-                                                 values(without_hierarchy(clutter, view)))
-                             .rrmse;
+    const double error = rrmse(Reference(clutter, view).exact().radiance, without_hierarchy(clutter, view));
     // The distance comes through an image of single precision.
     EXPECT_LT(error, 2e-6) << what;
   };
@@ -331,8 +300,7 @@ TEST(Exact, FourTimesTheNodesStayWithinTheBound) {
     const Reference reference(tests::clutter(150), view);
     const AirlightImage image = reference.exact();
     EXPECT_LT(image.bound, 2e-6);
-    EXPECT_LE(quality::airlight_error(values(image.radiance), values(reference.exact(4).radiance)).rrmse,
-              image.bound);
+    EXPECT_LE(rrmse(image, reference.exact(4)), image.bound);
   }
 }
 

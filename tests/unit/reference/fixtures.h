@@ -1,14 +1,21 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <span>
 #include <vector>
 
+#include <gtest/gtest.h>
 #include <glm/glm.hpp>
 
+#include "quality/metrics.h"
 #include "reference/phase.h"
 #include "reference/reference.h"
+#include "reference/triangles.h"
 #include "scene/scene.h"
+#include "support/random.h"
 #include "support/scenes.h"
 
 /// What the tests of the reference share: geometry made by code, views of one pixel, and the airlight
@@ -34,6 +41,91 @@ inline void add_sphere(scene::Geometry& geometry, glm::vec3 centre, float radius
       if (ring > 0) add_triangle(geometry, a, c, d);
     }
   }
+}
+
+/// A floor of many triangles that slants, from the origin to both sides of it; `normal` is its upper side's.
+struct SlantedFloor {
+  glm::dvec3 u{0.8, 0.31, 0.1}, v{-0.2, 0.17, 0.9};
+  glm::dvec3 normal = -glm::normalize(glm::cross(u, v));
+
+  scene::Geometry geometry() const {
+    scene::Geometry geometry;
+    for (int i = -10; i < 10; ++i) {
+      for (int j = -10; j < 10; ++j)
+        add_quad(geometry, glm::vec3(0.3 * i * u + 0.3 * j * v), glm::vec3(0.3 * u), glm::vec3(0.3 * v));
+    }
+    return geometry;
+  }
+};
+
+/// Pixels that see a surface, and of those the lit ones.
+struct SurfaceCount {
+  std::size_t hits = 0, lit = 0;
+};
+
+inline SurfaceCount count_surfaces(const SurfaceImage& image) {
+  SurfaceCount count;
+  for (std::size_t i = 0; i < image.distance.size(); ++i) {
+    count.hits += image.distance[i] > 0.0f ? 1u : 0u;
+    count.lit += image.visibility[i] > 0.0f ? 1u : 0u;
+  }
+  return count;
+}
+
+/// The rrmse of an image against the truth. Refuses NaN and infinity.
+inline double rrmse(const std::vector<glm::vec3>& image, const std::vector<glm::vec3>& truth) {
+  const auto values = [](const std::vector<glm::vec3>& of) {
+    return std::span<const float>(&of.data()->x, 3 * of.size());
+  };
+  return quality::airlight_error(values(image), values(truth)).rrmse;
+}
+
+inline double rrmse(const AirlightImage& image, const AirlightImage& truth) {
+  return rrmse(image.radiance, truth.radiance);
+}
+
+/// Whether a triangle hides a point from the light, decided by volumes of tetrahedra: no formula is shared
+/// with the intervals.
+struct Crossing {
+  bool hides;
+  double margin;  ///< how far it is from being otherwise, relative to the volumes' factors
+};
+
+/// Whether the line through the origin along `line` passes the triangle's edges on one side of all, with the
+/// least of the volumes' margins.
+inline Crossing passes_inside(const Corners& c, const glm::dvec3& line) {
+  const auto volume = [](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& d) {
+    return glm::dot(a, glm::cross(b, d)) / (glm::length(a) * glm::length(b) * glm::length(d) + 1e-300);
+  };
+  const double edges[3] = {volume(line, c[0], c[1]), volume(line, c[1], c[2]), volume(line, c[2], c[0])};
+  const bool inside =
+      (edges[0] > 0 && edges[1] > 0 && edges[2] > 0) || (edges[0] < 0 && edges[1] < 0 && edges[2] < 0);
+  return {inside, std::min({std::abs(edges[0]), std::abs(edges[1]), std::abs(edges[2])})};
+}
+
+/// Of all triangles: whether one hides the point, and the least margin.
+/// @param crossing Crossing(corners)
+template <class Find>
+Crossing crossing_of_all(const std::vector<Corners>& triangles, const Find& crossing) {
+  Crossing all{false, std::numeric_limits<double>::infinity()};
+  for (const Corners& corners : triangles) {
+    const Crossing one = crossing(corners);
+    all.hides |= one.hides;
+    all.margin = std::min(all.margin, one.margin);
+  }
+  return all;
+}
+
+/// Thirty triangles of many sizes, their middles within `reach` of the origin in each axis.
+inline std::vector<Corners> random_triangles(airlight::tests::Random& random, double reach) {
+  std::vector<Corners> triangles;
+  for (int i = 0; i < 30; ++i) {
+    const glm::dvec3 centre = random.in_box(reach);
+    const double size = random.logarithmic(0.01, 3.0);
+    triangles.push_back(
+        {centre + random.in_box(size), centre + random.in_box(size), centre + random.in_box(size)});
+  }
+  return triangles;
 }
 
 /// Slats of several widths at many angles, the same at every call: a view ray crosses the shadow of dozens.
@@ -137,6 +229,19 @@ inline glm::dvec3 airlight_over_distance(const scene::View& view, double alpha, 
     radiance[channel] = estimate;
   }
   return radiance;
+}
+
+/// Expects the march to come to the truth as its steps grow.
+inline void expect_march_converges(const Reference& reference, const AirlightImage& exact) {
+  double coarser = 1.0;
+  for (int samples : {16, 64, 256, 1024}) {
+    const double error = rrmse(reference.march(samples, RayMode::packet), exact);
+    // Each shadow edge is off by up to half a step, at random: four times the steps leave a quarter of the
+    // error.
+    EXPECT_LT(error, 0.45 * coarser) << samples;
+    coarser = error;
+  }
+  EXPECT_LT(coarser, 2e-3);
 }
 
 }  // namespace airlight::reference::tests

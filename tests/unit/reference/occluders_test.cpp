@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "quality/metrics.h"
 #include "scene/error.h"
 #include "unit/reference/fixtures.h"
 
@@ -14,21 +13,9 @@ namespace {
 
 using tests::airlight_over_distance;
 using tests::one_pixel_view;
+using tests::rrmse;
 
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
-
-std::vector<float> values(const AirlightImage& image) {
-  std::vector<float> result;
-  for (const glm::vec3& radiance : image.radiance) {
-    for (int channel = 0; channel < 3; ++channel) result.push_back(radiance[channel]);
-  }
-  return result;
-}
-
-/// The rrmse of a against b. Refuses NaN and infinity.
-double rrmse(const AirlightImage& a, const AirlightImage& b) {
-  return quality::airlight_error(values(a), values(b)).rrmse;
-}
 
 /// A light at a height of 2 above the view ray from the origin along +Z, 3 ahead of the eye.
 scene::View overhead_light() {
@@ -100,16 +87,7 @@ TEST(Occluders, ASphereShadowsTheRayBetweenItsTangents) {
 
 TEST(Occluders, MarchApproachesTheTruthAsStepsGrow) {
   const Reference reference(tests::clutter(150), tests::clutter_view(24));
-  const AirlightImage exact = reference.exact();
-  double coarser = 1.0;
-  for (int samples : {16, 64, 256, 1024}) {
-    const double error = rrmse(reference.march(samples, RayMode::packet), exact);
-    // Each shadow edge is off by up to half a step, at random: four times the steps leave a quarter of the
-    // error.
-    EXPECT_LT(error, 0.45 * coarser) << samples;
-    coarser = error;
-  }
-  EXPECT_LT(coarser, 2e-3);
+  tests::expect_march_converges(reference, reference.exact());
 }
 
 TEST(Occluders, SingleRaysAndPacketsSeeTheSame) {

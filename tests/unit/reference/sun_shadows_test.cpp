@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "quality/metrics.h"
 #include "reference/shadow_intervals.h"
 #include "reference/sun_fog.h"
 #include "support/random.h"
@@ -19,40 +18,20 @@ namespace airlight::reference {
 namespace {
 
 using airlight::tests::Random;
+using tests::Crossing, tests::rrmse;
 
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
 /// Rounding of images to single precision.
 constexpr double k_single = 3e-7;
 
-double rrmse(const AirlightImage& a, const AirlightImage& b) {
-  const auto values = [](const AirlightImage& image) {
-    std::vector<float> result;
-    for (const glm::vec3& radiance : image.radiance)
-      result.insert(result.end(), {radiance.r, radiance.g, radiance.b});
-    return result;
-  };
-  return quality::airlight_error(values(a), values(b)).rrmse;
-}
-
-/// By volumes of tetrahedra: no formula is shared with the intervals.
-struct Crossing {
-  bool hides;
-  double margin;  ///< how far it is from being otherwise, relative to the volumes' factors
-};
-
+/// Whether a triangle hides a point from a sun.
 Crossing crossing(const Corners& corners, const glm::dvec3& point, const glm::dvec3& sun) {
   const Corners c = {corners[0] - point, corners[1] - point, corners[2] - point};
-  const auto volume = [](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& d) {
-    return glm::dot(a, glm::cross(b, d)) / (glm::length(a) * glm::length(b) * glm::length(d) + 1e-300);
-  };
-  const double edges[3] = {volume(sun, c[0], c[1]), volume(sun, c[1], c[2]), volume(sun, c[2], c[0])};
+  const Crossing inside = tests::passes_inside(c, sun);
   const glm::dvec3 n = glm::normalize(normal(c));
   const double along = glm::dot(n, c[0]), facing = glm::dot(n, sun);
-  const bool inside =
-      (edges[0] > 0 && edges[1] > 0 && edges[2] > 0) || (edges[0] < 0 && edges[1] < 0 && edges[2] < 0);
-  const double margin = std::min({std::abs(edges[0]), std::abs(edges[1]), std::abs(edges[2]),
-                                  std::abs(along) / glm::length(c[0]), std::abs(facing)});
-  return {inside && along * facing > 0.0, margin};
+  return {inside.hides && along * facing > 0.0,
+          std::min({inside.margin, std::abs(along) / glm::length(c[0]), std::abs(facing)})};
 }
 
 bool is_lit(const ShadowIntervals& shadows, double t) {
@@ -65,28 +44,17 @@ TEST(SunShadowIntervals, AgreeWithRaysCastOneByOne) {
   int shadowed = 0, lit = 0;
   for (int trial = 0; trial < 400; ++trial) {
     const glm::dvec3 sun = random.direction();
-    std::vector<Corners> triangles;
+    const std::vector<Corners> triangles = tests::random_triangles(random, 4.0);
     Occluders occluders(sun);
-    for (int i = 0; i < 30; ++i) {
-      const glm::dvec3 centre = random.in_box(4.0);
-      const double size = random.logarithmic(0.01, 3.0);
-      triangles.push_back(
-          {centre + random.in_box(size), centre + random.in_box(size), centre + random.in_box(size)});
-      occluders.add(triangles.back());
-    }
+    for (const Corners& corners : triangles) occluders.add(corners);
     const double distance = trial % 2 == 0 ? 0.0 : random.logarithmic(0.1, 10.0);
     const SunRay ray = make_sun_ray(sun, random.direction(), {1, 0, 0}, distance, 1e-6, {});
     ShadowIntervals shadows;
     shadows.trace(ray, occluders);
     for (int sample = 0; sample < 200; ++sample) {
       const double t = random.uniform() * std::min(ray.to, 10.0);
-      bool hidden = false;
-      double margin = k_infinity;
-      for (const Corners& corners : triangles) {
-        const Crossing c = crossing(corners, t * ray.w, sun);
-        hidden |= c.hides;
-        margin = std::min(margin, c.margin);
-      }
+      const auto [hidden, margin] = tests::crossing_of_all(
+          triangles, [&](const Corners& corners) { return crossing(corners, t * ray.w, sun); });
       if (margin < 1e-11) continue;  // neither can know
       EXPECT_EQ(is_lit(shadows, t), !hidden) << trial << " " << t;
       ++(hidden ? shadowed : lit);
@@ -242,13 +210,7 @@ TEST(SunOccluders, RaysConvergeToTheTruth) {
   for (const std::optional<double> top : {std::optional<double>(), std::optional(0.7)}) {
     const Reference reference(tests::clutter(150), clutter_view(24, top));
     const AirlightImage exact = reference.exact();
-    double coarser = 1.0;
-    for (int samples : {16, 64, 256, 1024}) {
-      const double error = rrmse(reference.march(samples, RayMode::packet), exact);
-      EXPECT_LT(error, 0.45 * coarser) << samples;
-      coarser = error;
-    }
-    EXPECT_LT(coarser, 2e-3);
+    tests::expect_march_converges(reference, exact);
     EXPECT_LT(rrmse(reference.march(100, RayMode::single), reference.march(100, RayMode::packet)), 1e-3);
     const AirlightImage sampled = reference.sampled(1023);
     EXPECT_LT(rrmse(sampled, exact), 1e-3);
@@ -398,24 +360,15 @@ TEST(SunSurfaces, AQuadCastsItsShadowWhereItShould) {
 }
 
 TEST(SunSurfaces, AFlatMeshNeverShadowsItselfHoweverGrazingTheSun) {
-  const glm::dvec3 u(0.8, 0.31, 0.1), v(-0.2, 0.17, 0.9);
-  scene::Geometry geometry;
-  for (int i = -10; i < 10; ++i) {
-    for (int j = -10; j < 10; ++j)
-      tests::add_quad(geometry, glm::vec3(0.3 * i * u + 0.3 * j * v), glm::vec3(0.3 * u), glm::vec3(0.3 * v));
-  }
-  const glm::dvec3 normal = -glm::normalize(glm::cross(u, v));
+  const tests::SlantedFloor floor;
+  const scene::Geometry geometry = floor.geometry();
   for (double height : {1.0, 1e-2, 1e-4, 0.0, -1e-4}) {
     scene::View view = airlight::tests::view_of_level_plane({});
     view.camera.eye = {0.1, 4, 0.3};
     view.camera.up = {0, 0, -1};
-    view.lights[0] = scene::sun("sun", glm::normalize(u + 0.3 * v) + height * normal, glm::vec3(1.0f));
-    const SurfaceImage image = Reference(geometry, view).surfaces();
-    std::size_t hits = 0, lit = 0;
-    for (std::size_t i = 0; i < image.distance.size(); ++i) {
-      hits += image.distance[i] > 0.0f ? 1u : 0u;
-      lit += image.visibility[i] > 0.0f ? 1u : 0u;
-    }
+    view.lights[0] =
+        scene::sun("sun", glm::normalize(floor.u + 0.3 * floor.v) + height * floor.normal, glm::vec3(1.0f));
+    const auto [hits, lit] = tests::count_surfaces(Reference(geometry, view).surfaces());
     EXPECT_GT(hits, 2000u);
     EXPECT_EQ(lit, height < 0.0 ? 0u : hits) << height;
   }

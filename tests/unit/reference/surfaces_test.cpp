@@ -78,22 +78,11 @@ TEST(Surfaces, AQuadCastsItsShadowWhereItShould) {
 
 TEST(Surfaces, AFlatMeshNeverShadowsItselfHoweverGrazingTheLight) {
   // A slanted floor of many triangles, and a light that skims it or lies in its very plane.
-  const glm::dvec3 u(0.8, 0.31, 0.1), v(-0.2, 0.17, 0.9);
-  scene::Geometry geometry;
-  for (int i = -10; i < 10; ++i) {
-    for (int j = -10; j < 10; ++j) {
-      tests::add_quad(geometry, glm::vec3(0.3 * i * u + 0.3 * j * v), glm::vec3(0.3 * u), glm::vec3(0.3 * v));
-    }
-  }
-  const glm::dvec3 normal = -glm::normalize(glm::cross(u, v));
+  const tests::SlantedFloor floor;
+  const scene::Geometry geometry = floor.geometry();
   for (double height : {1.0, 1e-2, 1e-4, 0.0, -1e-4}) {
-    const SurfaceImage image =
-        Reference(geometry, looking_down(2.2 * u + 0.3 * v + height * normal)).surfaces();
-    std::size_t hits = 0, lit = 0;
-    for (std::size_t i = 0; i < image.distance.size(); ++i) {
-      hits += image.distance[i] > 0.0f ? 1u : 0u;
-      lit += image.visibility[i] > 0.0f ? 1u : 0u;
-    }
+    const glm::dvec3 light = 2.2 * floor.u + 0.3 * floor.v + height * floor.normal;
+    const auto [hits, lit] = tests::count_surfaces(Reference(geometry, looking_down(light)).surfaces());
     EXPECT_GT(hits, 3000u);
     EXPECT_EQ(lit, height < 0.0 ? 0u : hits) << height;
   }
