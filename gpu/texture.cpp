@@ -79,43 +79,30 @@ bool is_float(Format format) {
 }
 
 Texture::Texture(Format format, glm::ivec2 size, int layers, int levels)
-    : handle_(create(layers == 1 ? GL_TEXTURE_2D : GL_TEXTURE_2D_ARRAY)),
-      format_(format),
-      size_(size, layers),
-      levels_(levels) {
-  const GLenum internal_format = format_info(format).internal_format;
-  if (layers == 1) {
-    glTextureStorage2D(name(), levels, internal_format, size.x, size.y);
-  } else {
-    glTextureStorage3D(name(), levels, internal_format, size.x, size.y, layers);
-  }
-  require_allocated(bytes());
-  set_filter(name(), GL_NEAREST, GL_NEAREST_MIPMAP_NEAREST);
-}
+    : Texture(layers == 1 ? GL_TEXTURE_2D : GL_TEXTURE_2D_ARRAY, format, glm::ivec3(size, layers), levels) {}
 
 Texture Texture::array(Format format, glm::ivec2 size, int layers) {
-  Texture texture;
-  texture.handle_ = Handle<delete_texture>(create(GL_TEXTURE_2D_ARRAY));
-  texture.format_ = format;
-  texture.size_ = glm::ivec3(size, layers);
-  texture.levels_ = 1;
-  glTextureStorage3D(texture.name(), 1, format_info(format).internal_format, size.x, size.y, layers);
-  require_allocated(texture.bytes());
-  set_filter(texture.name(), GL_NEAREST, GL_NEAREST_MIPMAP_NEAREST);
-  return texture;
+  return {GL_TEXTURE_2D_ARRAY, format, glm::ivec3(size, layers), 1};
 }
 
 Texture Texture::volume(Format format, glm::ivec3 size, int levels) {
-  Texture texture;
-  texture.handle_ = Handle<delete_texture>(create(GL_TEXTURE_3D));
-  texture.format_ = format;
-  texture.size_ = size;
-  texture.is_volume_ = true;
-  texture.levels_ = levels;
-  glTextureStorage3D(texture.name(), levels, format_info(format).internal_format, size.x, size.y, size.z);
-  require_allocated(texture.bytes());
-  set_filter(texture.name(), GL_NEAREST, GL_NEAREST_MIPMAP_NEAREST);
-  return texture;
+  return {GL_TEXTURE_3D, format, size, levels};
+}
+
+Texture::Texture(unsigned target, Format format, glm::ivec3 size, int levels)
+    : handle_(create(target)),
+      format_(format),
+      size_(size),
+      is_volume_(target == GL_TEXTURE_3D),
+      levels_(levels) {
+  const GLenum internal_format = format_info(format).internal_format;
+  if (target == GL_TEXTURE_2D) {
+    glTextureStorage2D(name(), levels, internal_format, size.x, size.y);
+  } else {
+    glTextureStorage3D(name(), levels, internal_format, size.x, size.y, size.z);
+  }
+  require_allocated(bytes());
+  set_filter(name(), GL_NEAREST, GL_NEAREST_MIPMAP_NEAREST);
 }
 
 glm::ivec3 Texture::extent(int level) const {

@@ -106,6 +106,10 @@ class Texture {
   }
 
  private:
+  /// @param target GL_TEXTURE_2D, …_2D_ARRAY or …_3D
+  /// @param size   width, height, and layers or depth
+  Texture(unsigned target, Format format, glm::ivec3 size, int levels);
+
   std::size_t transfer_bytes() const;  ///< of a texel that is written or read
   void read_row_bytes(int first, int count, void* destination, std::size_t bytes) const;
   void read_bytes(int level, void* destination, std::size_t bytes) const;
