@@ -35,7 +35,7 @@ struct FrameInputs {
   /// the camera may see [rad]; all directions by default. Beyond, the map need not know of occluders.
   /// @returns sampler2DArray: a cube's faces, or one image
   const gpu::Texture& shadow_map(double reach = std::numbers::pi) const {
-    return resources.shadow_map(scene::camera_frame(view.camera, view.size), reach, timer);
+    return resources.shadow_map(reach, timer);
   }
   /// Whether it is one image on a plane, not a cube.
   bool shadow_map_is_plane() const { return resources.shadow_plane().has_value(); }

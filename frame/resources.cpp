@@ -19,6 +19,7 @@ void Resources::begin_frame() {
 
 void Resources::begin_light(const scene::Light& light, const scene::CameraFrame& camera) {
   light_ = &light;
+  camera_ = camera;
   shadow_plane_ = fit_shadow_plane(light, camera, scene_.box(), shadow_map_size_);
   shadow_plane_is_drawn_ = false;
   triangles_at_light_.clear();
@@ -44,8 +45,7 @@ void Resources::begin_light(const scene::Light& light, const scene::CameraFrame&
   light_texture_texels_.write(texels.data());
 }
 
-const gpu::Texture& Resources::shadow_map(const scene::CameraFrame& camera, double reach,
-                                          gpu::StageTimer& timer) {
+const gpu::Texture& Resources::shadow_map(double reach, gpu::StageTimer& timer) {
   if (shadow_plane_) {
     if (!shadow_plane_map_) shadow_plane_map_.emplace(context_, shadow_map_size_);
     if (!shadow_plane_is_drawn_) {
@@ -56,7 +56,7 @@ const gpu::Texture& Resources::shadow_map(const scene::CameraFrame& camera, doub
     return shadow_plane_map_->depth();
   }
   if (!shadow_map_) shadow_map_.emplace(context_, shadow_map_size_);
-  const CubeFaces faces = needed_faces(camera, light_->position, reach);
+  const CubeFaces faces = needed_faces(camera_, light_->position, reach);
   if (!shadow_map_->has(faces)) {
     timer.time("shadow_map",
                [&] { shadow_map_->draw(scene_, light_->position, triangles_at_light_, faces); });

@@ -42,9 +42,9 @@ class Resources {
   /// The triangles on which the light lies, which cast no shadow: see SceneBuffers::triangles_at.
   const std::vector<std::uint32_t>& triangles_at_light() const { return triangles_at_light_; }
 
-  /// With at least what a camera needs drawn (FrameInputs::shadow_map). Stage `shadow_map`.
+  /// With at least what the camera needs drawn (FrameInputs::shadow_map). Stage `shadow_map`.
   /// @throws scene::Error (driver) for one over the driver's limit
-  const gpu::Texture& shadow_map(const scene::CameraFrame& camera, double reach, gpu::StageTimer& timer);
+  const gpu::Texture& shadow_map(double reach, gpu::StageTimer& timer);
 
   /// rgba32f, by direction (light_texture.glsl); nullptr where the light has none.
   const gpu::Texture* light_texture() const { return light_texture_ ? &light_texture_texels_ : nullptr; }
@@ -67,6 +67,7 @@ class Resources {
   std::optional<ShadowMap> shadow_map_;
   std::optional<ShadowPlaneMap> shadow_plane_map_;
   const scene::Light* light_ = nullptr;  ///< whose things are asked for
+  scene::CameraFrame camera_{};          ///< that sees what it lights
   std::vector<std::uint32_t> triangles_at_light_;
   std::optional<ShadowPlane> shadow_plane_;
   bool shadow_plane_is_drawn_ = false;
