@@ -16,7 +16,7 @@ void PopulateShadowMap::run(const Grid& grid, const frame::FrameInputs& inputs, 
     program = gpu::Pipeline::compute(k_populate_shadow_map_comp,
                                      std::array{counts[0], counts[1], counts[2], on_plane});
   }
-  program->dispatch({n.phi, (n.theta + 15) / 16, 1});
+  program->dispatch({n.phi, n.theta, 1});
 }
 
 }  // namespace airlight::epipolar

@@ -13,34 +13,31 @@ layout(std430, binding = k_first_shadowed_storage) writeonly buffer FirstShadowe
 
 layout(constant_id = 3) const bool k_plane = false;  // the shadow map is on a plane
 
-const uint k_planes = 16u;  // an invocation's
-
 void main() {
   uint k = gl_GlobalInvocationID.x;
-  if (k >= k_phi_count) return;
-  uint end = min((gl_GlobalInvocationID.y + 1u) * k_planes, k_theta_count);
-  for (uint j = gl_GlobalInvocationID.y * k_planes; j < end; ++j) {
-    float phi = phi_of_cell(phi_cells(j), float(k) + 0.5);
-    vec2 plane = plane_direction(j);
-    vec3 outward = plane.x * space.u + plane.y * space.f;
-    if (k_plane) {
-      float across = crossing_of(space, phi);
-      vec2 uv = plane_uv(light, across * outward);
-      ivec2 texel = cube_texel(uv, light.shadow_map_size);
-      float stored = texelFetch(shadow_map, ivec3(texel, 0), 0).r;
-      // The map keeps view rays, and with them α.
-      uint cell = first_shadowed_cell(space, angle_of(across, plane_z(light, stored)), k_alpha_count);
-      // Nothing that matters lies on light rays that pass the image by, nor on those that part from the eye.
-      bool is_on_map = across >= 0.0 && max(abs(uv.x), abs(uv.y)) <= 1.0;
-      first_shadowed[j * k_phi_count + k] = is_on_map && stored != 0.0 ? cell : k_alpha_count;
-      continue;
-    }
+  uint j = gl_GlobalInvocationID.y;
+  if (k >= k_phi_count || j >= k_theta_count) return;
+  float phi = phi_of_cell(phi_cells(j), float(k) + 0.5);
+  vec2 plane = plane_direction(j);
+  vec3 outward = plane.x * space.u + plane.y * space.f;
+  uint first = k_alpha_count;
+  if (k_plane) {
+    float across = crossing_of(space, phi);
+    vec2 uv = plane_uv(light, across * outward);
+    float depth = texelFetch(shadow_map, ivec3(cube_texel(uv, light.shadow_map_size), 0), 0).r;
+    // Nothing that matters lies on light rays that pass the image by, nor on those that part from the eye.
+    bool is_on_map = across >= 0.0 && max(abs(uv.x), abs(uv.y)) <= 1.0;
+    // The map keeps view rays, and with them α.
+    uint cell = first_shadowed_cell(space, angle_of(across, plane_z(light, depth)), k_alpha_count);
+    if (is_on_map && depth != 0.0) first = cell;
+  } else {
     float sin_phi = sine(phi);
     float cos_phi = cosine(phi);
     CubePoint point = cube_point(sin_phi * outward - cos_phi * space.axis);
     float depth = texelFetch(shadow_map, ivec3(cube_texel(point.uv, light.shadow_map_size), point.face), 0).r;
     float r = light.near / (max(depth, 1e-30) * point.depth);  // along the unit light ray
-    uint first = first_shadowed_cell(space, alpha_at(space, sin_phi, cos_phi, r), k_alpha_count);
-    first_shadowed[j * k_phi_count + k] = depth == 0.0 ? k_alpha_count : first;
+    uint cell = first_shadowed_cell(space, alpha_at(space, sin_phi, cos_phi, r), k_alpha_count);
+    if (depth != 0.0) first = cell;
   }
+  first_shadowed[j * k_phi_count + k] = first;
 }
