@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace airlight::epipolar {
@@ -37,10 +38,7 @@ Range alpha_range(const scene::CameraFrame& camera, glm::dvec3 axis) {
     range.lower = std::min(range.lower, angle);
     range.upper = std::max(range.upper, angle);
   };
-  const auto point = [&](double x, double y) {
-    return camera.forward + x * camera.half_width * camera.right + y * camera.half_height * camera.up;
-  };
-  const std::array<glm::dvec3, 4> corners = {point(-1, -1), point(1, -1), point(1, 1), point(-1, 1)};
+  const std::array<glm::dvec3, 4> corners = scene::corner_rays(camera);
   for (std::size_t i = 0; i < 4; ++i) {
     const glm::dvec3 a = corners[i], edge = corners[(i + 1) % 4] - a;
     include(a);
@@ -66,14 +64,10 @@ Range theta_range(const scene::CameraFrame& camera, const Axes& axes) {
   const auto theta = [&](glm::dvec3 ray) { return std::atan2(glm::dot(ray, axes.f), glm::dot(ray, axes.u)); };
   const double inside = theta(camera.forward);
   Range range{0.0, 0.0};
-  for (const double x : {-1.0, 1.0}) {
-    for (const double y : {-1.0, 1.0}) {
-      const double corner =
-          theta(camera.forward + x * camera.half_width * camera.right + y * camera.half_height * camera.up);
-      const double from_inside = std::remainder(corner - inside, 2.0 * pi);
-      range.lower = std::min(range.lower, from_inside);
-      range.upper = std::max(range.upper, from_inside);
-    }
+  for (const glm::dvec3& corner : scene::corner_rays(camera)) {
+    const double from_inside = std::remainder(theta(corner) - inside, 2.0 * pi);
+    range.lower = std::min(range.lower, from_inside);
+    range.upper = std::max(range.upper, from_inside);
   }
   return {inside + range.lower, inside + range.upper};
 }
@@ -229,10 +223,13 @@ std::vector<glm::vec2> box_ranges(const scene::Box& box, glm::dvec3 eye, const s
   const glm::dvec3 lower = glm::dvec3(box.lower) - eye, upper = glm::dvec3(box.upper) - eye;
   const glm::dvec3 slack(1e-5 * (glm::length(lower) + glm::length(upper)));
   std::array<glm::dvec3, 8> corners;
+  std::array<double, 8> theta_of_corner{}, phi_of_corner{};
   for (std::size_t i = 0; i < 8; ++i) {
     const glm::dvec3 side(i & 1, i >> 1 & 1, i >> 2);
     const glm::dvec3 corner = glm::mix(lower - slack, upper + slack, side);
-    corners[i] = {glm::dot(corner, u), glm::dot(corner, f), glm::dot(corner, axis)};
+    const glm::dvec3& p = corners[i] = {glm::dot(corner, u), glm::dot(corner, f), glm::dot(corner, axis)};
+    theta_of_corner[i] = std::atan2(p.y, p.x);
+    phi_of_corner[i] = phi_of(std::hypot(p.x, p.y), p.z);
   }
 
   // Where the axis goes through the box, every half-plane begins there, at φ = 0, or, beyond the light, at π.
@@ -274,19 +271,18 @@ std::vector<glm::vec2> box_ranges(const scene::Box& box, glm::dvec3 eye, const s
     return static_cast<double>(shaders::theta_of_plane(block, shaders::Cell(static_cast<float>(j))));
   };
   const auto middle = static_cast<double>(block.theta_middle);
-  PhiBounds at_border = section(middle + border(0));
+  double to = border(0);
+  PhiBounds at_border = section(middle + to);
   for (int j = 0; j < theta_count; ++j) {
     // Of the cell: what its borders' sections, its middle's and the corners between them have.
-    const double from = border(j), to = border(j + 1);
+    const double from = std::exchange(to, border(j + 1));
     PhiBounds bounds = at_border;
     bounds.include(section(middle + 0.5 * (from + to)));
     at_border = section(middle + to);
     bounds.include(at_border);
-    for (const glm::dvec3& corner : corners) {
-      const double theta =
-          std::remainder(std::atan2(corner.y, corner.x) - middle - 0.5 * (from + to), 2.0 * pi);
-      if (std::abs(theta) <= 0.5 * (to - from) * 1.0001)
-        bounds.include(phi_of(std::hypot(corner.x, corner.y), corner.z));
+    for (std::size_t i = 0; i < 8; ++i) {
+      const double theta = std::remainder(theta_of_corner[i] - middle - 0.5 * (from + to), 2.0 * pi);
+      if (std::abs(theta) <= 0.5 * (to - from) * 1.0001) bounds.include(phi_of_corner[i]);
     }
     if (bounds.lower > bounds.upper) continue;
     // Between two sections a straight edge comes nearer to the axis than where they cut it, by the cosine of

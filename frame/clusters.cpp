@@ -82,18 +82,23 @@ Clusters make_clusters(const scene::Geometry& geometry) {
   return result;
 }
 
-bool may_touch(const Pyramid& pyramid, const scene::Box& box) {
-  const glm::dvec3 centre = (glm::dvec3(box.lower) + glm::dvec3(box.upper)) * 0.5 - pyramid.apex;
+bool may_touch(glm::dvec3 apex, std::span<const glm::dvec3> inward, const scene::Box& box) {
+  const glm::dvec3 centre = (glm::dvec3(box.lower) + glm::dvec3(box.upper)) * 0.5 - apex;
   const glm::dvec3 half = (glm::dvec3(box.upper) - glm::dvec3(box.lower)) * 0.5;
-  // A box outside one of these planes is outside the pyramid; the slack covers rounding to float on the GPU.
-  const std::array<glm::dvec3, 5> inward = {
-      pyramid.forward, pyramid.forward * pyramid.half_width + pyramid.right,
-      pyramid.forward * pyramid.half_width - pyramid.right,
-      pyramid.forward * pyramid.half_height + pyramid.up, pyramid.forward * pyramid.half_height - pyramid.up};
+  // A box outside one of the planes is outside the region; the slack covers rounding to float on the GPU.
   const double slack = 1e-5 * (glm::length(centre) + glm::length(half));
   return std::all_of(inward.begin(), inward.end(), [&](const glm::dvec3& n) {
     return glm::dot(n, centre) + glm::dot(glm::abs(n), half) >= -slack * glm::length(n);
   });
+}
+
+bool may_touch(const Pyramid& pyramid, const scene::Box& box) {
+  return may_touch(pyramid.apex,
+                   std::array{pyramid.forward, pyramid.forward * pyramid.half_width + pyramid.right,
+                              pyramid.forward * pyramid.half_width - pyramid.right,
+                              pyramid.forward * pyramid.half_height + pyramid.up,
+                              pyramid.forward * pyramid.half_height - pyramid.up},
+                   box);
 }
 
 double distance_to_geometry(const scene::Geometry& geometry, const Clusters& clusters, glm::dvec3 point) {

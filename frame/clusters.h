@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "scene/scene.h"
@@ -33,7 +34,13 @@ struct Pyramid {
   double half_width, half_height;  ///< slopes of its sides
 };
 
-/// Whether a box may touch the pyramid: never wrongly "no".
+/// Whether a box may touch the region that half-spaces bound whose planes meet in a point: never wrongly
+/// "no".
+/// @param apex   that point, world space
+/// @param inward normals of the planes
+bool may_touch(glm::dvec3 apex, std::span<const glm::dvec3> inward, const scene::Box& box);
+
+/// The same for the pyramid.
 bool may_touch(const Pyramid& pyramid, const scene::Box& box);
 
 /// A lower bound of the distance from a point to the geometry [m], exact where the geometry's nearest

@@ -86,9 +86,7 @@ double length_scale(const scene::Light& light, glm::dvec3 eye, const scene::Box&
   constexpr double k_infinity = std::numeric_limits<double>::infinity();
   const double to_light = scene::is_sun(light) ? k_infinity : glm::distance(light.position, eye);
   if (scene.empty()) return std::min(to_light, 1e30);
-  const glm::dvec3 lower = glm::abs(glm::dvec3(scene.lower) - eye),
-                   upper = glm::abs(glm::dvec3(scene.upper) - eye);
-  return std::min(to_light, glm::length(glm::max(lower, upper)));
+  return std::min(to_light, scene::reach_from(eye, scene));
 }
 
 template <typename Block>

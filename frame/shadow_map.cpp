@@ -78,8 +78,8 @@ bool are_apart(const Cone& a, const Cone& b, double reach) {
 
 CubeFaces needed_faces(const scene::CameraFrame& camera, glm::dvec3 light, double reach) {
   // From the light the point at t along a view ray w is seen along (eye − light) + t·w.
-  Cone seen = pyramid(camera.forward, camera.half_width * camera.right, camera.half_height * camera.up);
-  seen.push_back(glm::normalize(camera.eye - light));
+  Cone seen = {glm::normalize(camera.eye - light)};
+  for (const glm::dvec3& corner : scene::corner_rays(camera)) seen.push_back(glm::normalize(corner));
   // Shaders add the two in single precision. Where they cancel, close to the light, the direction is off by
   // a rounding over the angle between view ray and light, which out of view is at least half a pixel.
   constexpr double k_rounding = 0.01;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "frame/clusters.h"
 #include "frame/shadow_map.h"
 
 namespace airlight::frame {
@@ -79,13 +80,7 @@ std::vector<glm::dvec3> corners_of(const glm::dvec3& lower, const glm::dvec3& up
 }  // namespace
 
 bool ShadowPlane::may_touch(const scene::Box& box) const {
-  const glm::dvec3 centre = (glm::dvec3(box.lower) + glm::dvec3(box.upper)) * 0.5 - eye;
-  const glm::dvec3 half = (glm::dvec3(box.upper) - glm::dvec3(box.lower)) * 0.5;
-  // The slack covers rounding to float on the GPU.
-  const double slack = 1e-5 * (glm::length(centre) + glm::length(half));
-  return std::all_of(half_spaces.begin(), half_spaces.end(), [&](const glm::dvec3& n) {
-    return glm::dot(n, centre) + glm::dot(glm::abs(n), half) >= -slack;
-  });
+  return frame::may_touch(eye, half_spaces, box);
 }
 
 std::optional<ShadowPlane> fit_shadow_plane(const scene::Light& light, const scene::CameraFrame& camera,
@@ -96,10 +91,9 @@ std::optional<ShadowPlane> fit_shadow_plane(const scene::Light& light, const sce
   ShadowPlane plane;
   plane.eye = camera.eye;
   std::array<glm::dvec3, 5> directions{};
-  for (std::size_t i = 0; i < 4; ++i) {
-    directions[i] = glm::normalize(camera.forward + (i & 1 ? 1.0 : -1.0) * camera.half_width * camera.right +
-                                   (i & 2 ? 1.0 : -1.0) * camera.half_height * camera.up);
-  }
+  const std::array<glm::dvec3, 4> corners = scene::corner_rays(camera);
+  std::transform(corners.begin(), corners.end(), directions.begin(),
+                 [](const glm::dvec3& corner) { return glm::normalize(corner); });
   directions[4] = l;
   plane.half_spaces = sides_of_cone(directions);
 

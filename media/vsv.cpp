@@ -45,11 +45,8 @@ bool is_rough(const frame::FrameInputs& inputs, std::uint32_t layer) {
   constexpr float k_wide_lobe = 0.8f, k_deep = 8.0f;
   const scene::View& view = inputs.view;
   double reach = glm::distance(inputs.light().position, view.camera.eye);
-  if (layer == shaders::k_layer_entered && !inputs.scene.box().empty()) {
-    const glm::dvec3 lower(inputs.scene.box().lower), upper(inputs.scene.box().upper);
-    reach = std::min(
-        reach, glm::length(glm::max(glm::abs(lower - view.camera.eye), glm::abs(upper - view.camera.eye))));
-  }
+  if (layer == shaders::k_layer_entered && !inputs.scene.box().empty())
+    reach = std::min(reach, scene::reach_from(view.camera.eye, inputs.scene.box()));
   const glm::vec3 depth = (view.medium.sigma_s + view.medium.sigma_a) * static_cast<float>(reach);
   return std::abs(view.medium.g) > k_wide_lobe || std::max({depth.x, depth.y, depth.z}) > k_deep;
 }
@@ -91,9 +88,7 @@ void Vsv::load(const gpu::Context& context, const Variant& variant) {
       gpu::Constant(11, variant.looks_away)};
   phi_growth_ = gpu::Pipeline::compute(k_phi_growth_comp, std::array{grid[0], constants[3]});
   if (variant.sun) {
-    const std::uint32_t sum = options_.integral == VsvIntegral::table      ? 0
-                              : options_.integral == VsvIntegral::factored ? 1
-                                                                           : 2;
+    const auto sum = static_cast<std::uint32_t>(options_.integral);
     integrate_ = frame::ScreenPass(k_vsv_sun_frag,
                                    std::array{grid[0], grid[1], grid[2], constants[3], gpu::Constant(6, sum),
                                               constants[8], constants[10], constants[11]});

@@ -30,10 +30,7 @@ namespace {
 
 /// Whether the light is at a thousand times the distance of all that the eye may see.
 bool is_far(const scene::Box& box, const glm::dvec3& eye, double distance) {
-  if (box.empty()) return false;
-  const glm::dvec3 reach =
-      glm::max(glm::abs(glm::dvec3(box.lower) - eye), glm::abs(glm::dvec3(box.upper) - eye));
-  return distance > 1000.0 * glm::length(reach);
+  return !box.empty() && distance > 1000.0 * scene::reach_from(eye, box);
 }
 
 }  // namespace

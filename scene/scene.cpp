@@ -88,6 +88,23 @@ glm::dvec3 direction_to(const Light& light, glm::dvec3 from) {
   return is_sun(light) ? light.towards : glm::normalize(light.position - from);
 }
 
+double reach_from(glm::dvec3 point, const Box& box) {
+  return glm::length(
+      glm::max(glm::abs(glm::dvec3(box.lower) - point), glm::abs(glm::dvec3(box.upper) - point)));
+}
+
+glm::dvec3 unit(glm::dvec3 v) {
+  // Scaling first keeps the squares of very short and very long vectors from vanishing or overflowing.
+  return glm::normalize(v / largest(v));
+}
+
+std::array<glm::dvec3, 4> corner_rays(const CameraFrame& camera) {
+  const auto ray = [&](double x, double y) {
+    return camera.forward + x * camera.half_width * camera.right + y * camera.half_height * camera.up;
+  };
+  return {ray(-1, -1), ray(1, -1), ray(1, 1), ray(-1, 1)};
+}
+
 std::span<const std::string_view> phase_names() {
   static constexpr auto k_names =
       std::to_array<std::string_view>({"isotropic", "rayleigh", "henyey-greenstein", "hoffman-preetham"});
@@ -111,15 +128,13 @@ CameraFrame camera_frame(const Camera& camera, glm::ivec2 image_size) {
   check_fields(ExitCode::usage, where, camera);
 
   const glm::dvec3 view = camera.target - camera.eye;
-  // Scaling first keeps the squares of very short and very long vectors from vanishing or overflowing.
-  const double view_size = largest(view), up_size = largest(camera.up);
-  if (view_size == 0.0) throw refuse(fmt::format("eye and target are both {}", text_of(camera.eye)));
-  if (up_size == 0.0) throw refuse("up is the zero vector");
+  if (largest(view) == 0.0) throw refuse(fmt::format("eye and target are both {}", text_of(camera.eye)));
+  if (largest(camera.up) == 0.0) throw refuse("up is the zero vector");
 
   CameraFrame frame;
   frame.eye = camera.eye;
-  frame.forward = glm::normalize(view / view_size);
-  const glm::dvec3 across = glm::cross(frame.forward, glm::normalize(camera.up / up_size));
+  frame.forward = unit(view);
+  const glm::dvec3 across = glm::cross(frame.forward, unit(camera.up));
   // The sine of an angle below which its direction is mostly rounding.
   if (glm::length(across) < 1e-9) throw refuse("up is parallel to the view");
   frame.right = glm::normalize(across);

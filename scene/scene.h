@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -47,6 +48,12 @@ struct Box {
 /// The box of all positions that a triangle uses.
 Box bounds(const Geometry& geometry);
 
+/// How far a box, not empty, reaches from a point [m].
+double reach_from(glm::dvec3 point, const Box& box);
+
+/// The unit vector along one of any length but 0, however short or long.
+glm::dvec3 unit(glm::dvec3 v);
+
 /// A pinhole camera. The image plane's aspect ratio comes from the image, not from here.
 struct Camera {
   std::string name;
@@ -68,6 +75,9 @@ struct CameraFrame {
 /// @throws Error (usage) when eye and target coincide, up is parallel to the view, the field of view is not
 /// inside (0°, 180°), a value is not finite, or the image has no pixels.
 CameraFrame camera_frame(const Camera& camera, glm::ivec2 image_size);
+
+/// Directions, not of unit length, through the corners of an image, in their order around it.
+std::array<glm::dvec3, 4> corner_rays(const CameraFrame& camera);
 
 class LightTexture;
 

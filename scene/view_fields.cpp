@@ -100,10 +100,7 @@ std::optional<FieldProblem> lack_in_lamp(const Light& light, std::string_view wh
 }
 
 void set_direction(Light& light, const FieldValue& value) {
-  const auto towards = std::get<glm::dvec3>(value);
-  // Scaling first keeps the squares of very short and very long vectors from vanishing or overflowing.
-  light.towards =
-      glm::normalize(towards / std::max({std::abs(towards.x), std::abs(towards.y), std::abs(towards.z)}));
+  light.towards = unit(std::get<glm::dvec3>(value));
 }
 
 std::optional<FieldProblem> lack_of_g(const Medium& medium) {

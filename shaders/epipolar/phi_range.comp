@@ -23,9 +23,7 @@ void main() {
     // α and θ from the same two coordinates across the axis: a range need not have every digit near it.
     vec3 direction = view_ray(camera, pixel + 0.5);
     vec2 across = vec2(dot(direction, space.u), dot(direction, space.f));
-    float along = dot(direction, space.axis);
-    float least = quarter_pixel(camera);  // as eye_angle has it
-    EyeAngle angle = EyeAngle(max(length(across), along > 0.0 ? least : min(least, 1e-5)), along);
+    EyeAngle angle = kept_off_axis(length(across), dot(direction, space.axis), quarter_pixel(camera));
     float t = texelFetch(surface_image, ivec2(pixel), 0).w;
     float order = t > 0.0 ? phi_order_at(space, angle, t) : phi_order_of_open_end(space, angle);
     uint j = theta_cell(space, angle_of(across.y, across.x), k_theta_count);

@@ -44,13 +44,17 @@ struct EyeAngle {
   float cosine;
 };
 
-// α of a unit view ray (from the eye), kept away from the direction to the light by `least_sine`, and from the opposite one,
-// where what depends on α has a limit, by what single precision asks for.
-FUNCTION EyeAngle eye_angle(IN(EpipolarBlock) space, IN(vec3) ray, float least_sine) {
+// α of a unit view ray (from the eye) by what of it is across and along the axis, kept away from the direction to the light by
+// `least_sine`, and from the opposite one, where what depends on α has a limit, by what single precision asks for.
+FUNCTION EyeAngle kept_off_axis(float across, float along, float least_sine) {
   EyeAngle angle;
-  angle.cosine = dot(space.axis, ray);
-  angle.sine = max(length(cross(space.axis, ray)), angle.cosine > 0.0f ? least_sine : min(least_sine, 1e-5f));
+  angle.cosine = along;
+  angle.sine = max(across, along > 0.0f ? least_sine : min(least_sine, 1e-5f));
   return angle;
+}
+
+FUNCTION EyeAngle eye_angle(IN(EpipolarBlock) space, IN(vec3) ray, float least_sine) {
+  return kept_off_axis(length(cross(space.axis, ray)), dot(space.axis, ray), least_sine);
 }
 
 FUNCTION Angle alpha_of(IN(EyeAngle) angle) { return angle_of(angle.sine, angle.cosine); }

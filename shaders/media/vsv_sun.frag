@@ -8,9 +8,9 @@
 // the paper's sum over the centres of lit cells (media/vsv_riemann.frag). Deviation: a cell counts with what of it lies in the ray's
 // part in the medium.
 layout(constant_id = 6) const uint k_sum = 0;
-const uint k_runs = 0u;
-const uint k_factored = 1u;
-const uint k_riemann = 2u;
+const uint k_runs = 0u;  // in the order of media::VsvIntegral
+const uint k_riemann = 1u;
+const uint k_factored = 2u;
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
