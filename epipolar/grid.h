@@ -49,7 +49,7 @@ class Grid {
   const gpu::Buffer& phi_range() const { return phi_range_; }  ///< see shaders/epipolar/phi_range.glsl
 
   const gpu::Buffer& planes() const { return planes_; }          ///< see shaders/epipolar/planes.glsl
-  const gpu::Buffer& box_ranges() const { return box_ranges_; }  ///< PhiRange of each plane: box_ranges()
+  const gpu::Buffer& box_ranges() const { return box_ranges_; }  ///< a vec2 a plane: epipolar::box_ranges
 
   /// Binds those as texels (k_scratch_unit).
   void bind_box_ranges() const;

@@ -1,7 +1,6 @@
 #include "epipolar/volume.h"
 
 #include <algorithm>
-#include <bit>
 #include <numbers>
 #include <utility>
 

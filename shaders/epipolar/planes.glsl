@@ -1,5 +1,5 @@
-// The half-planes of this frame, from planes.comp, plane_range.comp and plane_cells.comp: one look-up instead of an inversion of their spacing. GLSL
-// only.
+// The half-planes of this frame, from planes.comp, plane_range.comp and plane_cells.comp: look-ups instead of inversions of how they
+// are spaced and cut. GLSL only.
 #ifndef AIRLIGHT_PLANES_GLSL
 #define AIRLIGHT_PLANES_GLSL
 layout(binding = k_planes_unit) uniform samplerBuffer planes;  // two texels a plane

@@ -21,9 +21,8 @@ vec3 colour_at(vec3 outward, float phi) {
   return light_colour(light_texture, sine(phi) * outward - cosine(phi) * space.axis);
 }
 
-// A lit part of the ray, in steps that follow the integrand, and of a textured light no more than half a texel of latitude, nor than equal
-// cells would be; the light's
-// colour in their middle.
+// A lit part of the ray, in steps that follow the integrand, and of a textured light no longer than half a texel of latitude, nor
+// than equal cells would be; the light's colour in their middle.
 vec3 integrate_lit(LayerRay ray, float from, float to) {
   vec3 sum = vec3(0.0);
   int most = k_layer == k_layer_entered ? k_most_layer_steps : k_most_steps;

@@ -9,7 +9,7 @@
 // With k_factored, the factored visibility of Dobashi et al. 2002: the integral as if all of the ray were lit, times the lit
 // fraction of its samples. That takes one look-up a pixel, and does not ask where on the ray the shadow lies. The samples of the
 // paper are equal steps of φ; so that the result does not depend on how cells grow, the bits of a word weigh what it spans.
-layout(binding = k_table_unit) uniform samplerBuffer table;  // vec2
+layout(binding = k_table_unit) uniform samplerBuffer table;  // vec4
 
 // A ray that ends within this many cells is integrated directly: where α → π the integral and sin α vanish together, and
 // an interpolated table keeps no digits of their ratio. 0 for a view that does not reach there (media/vsv.cpp): llvmpipe
