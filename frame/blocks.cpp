@@ -1,6 +1,7 @@
 #include "frame/blocks.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace airlight::frame {
 
@@ -38,6 +39,16 @@ shaders::LightBlock light_block(const scene::Light& light, glm::dvec3 eye, float
   block.near = near;
   block.axis = glm::vec3(scene::direction_to(light, eye));
   block.inverse_distance = is_sun ? 0.0f : static_cast<float>(1.0 / glm::distance(light.position, eye));
+  block.cone_outer = shaders::k_no_cone;
+  if (light.cone) {
+    // 1 − cos x = 2 sin²(x / 2)
+    const auto fall = [](double x) { return 2.0 * std::sin(0.5 * x) * std::sin(0.5 * x); };
+    const double outer = fall(light.cone->outer), inner = fall(light.cone->inner);
+    block.cone_axis = glm::vec3(light.cone->axis);
+    block.cone_outer = static_cast<float>(outer);
+    block.cone_ramp = outer > inner ? static_cast<float>(1.0 / (outer - inner)) : 0.0f;
+  }
+  block.inverse_range = light.range ? static_cast<float>(1.0 / *light.range) : 0.0f;
   if (plane) {
     block.depth_scale = static_cast<float>(plane->depth_scale);
     block.depth_offset = static_cast<float>(plane->depth_offset);

@@ -15,7 +15,7 @@ namespace airlight::shaders {
 #include "frame/medium.glsl"
 #include "frame/shadow_cube.glsl"
 #include "frame/shadow_plane.glsl"
-static_assert(sizeof(CameraBlock) == 80 && sizeof(LightBlock) == 96 && sizeof(MediumBlock) == 48,
+static_assert(sizeof(CameraBlock) == 80 && sizeof(LightBlock) == 128 && sizeof(MediumBlock) == 48,
               "must match std140");
 }  // namespace airlight::shaders
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -87,6 +88,15 @@ enum class LightKind {
   sun,    ///< a point at infinity: its rays are parallel, it has no disc
 };
 
+/// What makes a point light a spot, as glTF's KHR_lights_punctual has it: the whole intensity within the
+/// inner half-angle, none beyond the outer one, between them the square of what falls linearly in the angle's
+/// cosine; where both are equal, a step.
+struct Cone {
+  glm::dvec3 axis{0.0, -1.0, 0.0};         ///< which way it shines, world axes; unit length
+  double inner = 0.0;                      ///< [rad], from 0 to `outer`
+  double outer = 0.25 * std::numbers::pi;  ///< [rad], above 0, at most π/2
+};
+
 struct Light {
   std::string name;
   LightKind kind = LightKind::point;
@@ -100,6 +110,9 @@ struct Light {
   glm::vec3 irradiance{1.0f};
   /// Multiplies a point's `intensity` by direction; nullptr for none.
   std::shared_ptr<const LightTexture> texture = nullptr;
+  std::optional<Cone> cone = {};  ///< of a point: a spot
+  /// Of a point [m]: light at the distance r is multiplied by max(1 − (r / range)⁴, 0), as glTF's range does.
+  std::optional<double> range = {};
 };
 
 inline Light point_light(std::string name, glm::dvec3 position, glm::vec3 intensity) {
