@@ -15,7 +15,7 @@ void main() {
   vec3 direction = view_ray(camera, vec2(pixel) + 0.5);
   EyeAngle angle = eye_angle(space, direction, quarter_pixel(camera));
   float t = texelFetch(surface_image, pixel, 0).w;
-  float phi_end = t > 0.0 ? phi_at(space, angle, t) : phi_of_open_end(space, angle);
+  float phi_end = phi_of_end(space, angle, t, t <= 0.0);
   uint i = alpha_cell(space, alpha_of(angle), k_alpha_count);
   uint j = theta_cell(space, theta_of(space, direction), k_theta_count);
   int end = int(clamp(ceil(cell_of_phi(phi_cells(j), phi_end) - 0.5), 0.0, float(k_phi_count)));

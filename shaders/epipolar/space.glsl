@@ -81,9 +81,11 @@ FUNCTION Angle phi_at(IN(EpipolarBlock) space, IN(EyeAngle) angle, float t) {
   return phi_through(space, t * angle.sine, 1.0f - t * angle.cosine * space.inverse_distance);
 }
 
-// φ where a view ray ends that meets nothing.
-FUNCTION Angle phi_of_open_end(IN(EpipolarBlock) space, IN(EyeAngle) angle) {
-  return is_sun(space) ? k_endless_phi : alpha_complement(angle);
+// φ where a view ray ends: at the distance t > 0, or, if open, nowhere. One arc tangent serves both.
+FUNCTION Angle phi_of_end(IN(EpipolarBlock) space, IN(EyeAngle) angle, float t, bool is_open) {
+  if (is_sun(space)) return is_open ? k_endless_phi : Angle(t * angle.sine);
+  float turn = space.inverse_distance;
+  return angle_of(is_open ? angle.sine : t * angle.sine * turn, is_open ? -angle.cosine : 1.0f - t * angle.cosine * turn);
 }
 
 // How far from the axis a light ray with φ < π/2 crosses the plane through the eye at right angles to it [m].

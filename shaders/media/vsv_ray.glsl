@@ -25,6 +25,14 @@ const float k_touch_slack = 0.25;
 // Where a wall is seen and lit at a grazing angle its voxels reach far before it.
 const float k_length_slack = 1e-4;
 
+// A bit of a row, by the row's first texel.
+bool is_shadowed(int row, uint cell) {
+  uvec4 words = texelFetch(grid_texels, row + int(cell >> 7));
+  uint word = cell >> 5 & 3u;
+  uint bits = word == 0u ? words.x : word == 1u ? words.y : word == 2u ? words.z : words.w;
+  return (bits >> (cell & 31u) & 1u) != 0u;
+}
+
 struct VsvRay {
   vec3 direction;
   float entry;       // where it enters the medium [m]
@@ -37,7 +45,7 @@ struct VsvRay {
   float end;         // where the ray ends, in cells of φ
   uint last_cell;    // the cell that holds its end
   int last_valid;    // the last cell whose bit says something about this ray; −1 for none
-  uint unknown;      // all bits set or none: what cells hold where none is valid
+  uint beyond_valid; // all bits set or none: what cells after that one hold
   int texel;         // the first texel of its row of bits
   bool is_open;      // has no end
 };
@@ -59,7 +67,7 @@ VsvRay vsv_ray(ivec2 pixel) {
   }
   ray.is_open = ray.distance == k_endless;
   ray.phi_start = ray.entry == 0.0 ? 0.0 : phi_at(space, ray.angle, ray.entry);
-  ray.phi_end = ray.is_open ? phi_of_open_end(space, ray.angle) : phi_at(space, ray.angle, ray.distance);
+  ray.phi_end = phi_of_end(space, ray.angle, ray.distance, ray.is_open);
   uint i = alpha_cell(space, ray.alpha, k_alpha_count);
   float theta = theta_of(space, direction);
   uint j = theta_cell(space, theta, k_theta_count);
@@ -72,7 +80,7 @@ VsvRay vsv_ray(ivec2 pixel) {
   // ends, its later bits tell of the other side of the surface: beyond a wall between eye and light they are lit, and as
   // 1/sin α grows a leak would circle the epipole.
   ray.last_valid = int(ray.last_cell);
-  ray.unknown = 0u;
+  ray.beyond_valid = 0u;
   if (ray.distance == surface.w) {
     float d_theta = theta_to_centre(space, theta, j);
     float before;  // the last cell that the surface leaves alone
@@ -93,39 +101,60 @@ VsvRay vsv_ray(ivec2 pixel) {
       before = ceil(cell_of_phi(ray.cells, max(ray.phi_end + d_phi, 0.0)) - 0.5 - k_plane_slack) - 1.0;
     }
     ray.last_valid = int(clamp(before, -1.0, float(ray.last_cell)));
-    // Lit where the surface faces the light, but for what looks away from the light and ends within its first cell, on the light rays
-    // next to the eye: that is as dark as they are beside the eye.
-    bool is_dark = light_above(light, surface.xyz, surface.w * dot(surface.xyz, direction)) <= 0.0;
-    if (k_looks_away != 0u && ray.last_valid < 0 && ray.angle.cosine < 0.0 && !is_dark) {
-      uint beside_eye = alpha_cell(space, 0.5 * k_pi, k_alpha_count);
-      is_dark = (texelFetch(grid_texels, int((j * k_alpha_count + beside_eye) * k_texels_per_ray)).x & 1u) != 0u;
+    // The cells after it are like it. Where there is none they are lit where the surface faces the light, but for what looks away
+    // from the light and ends within its first cell, on the light rays next to the eye: that is as dark as they are beside the eye.
+    bool is_dark;
+    if (ray.last_valid >= 0) {
+      is_dark = is_shadowed(ray.texel, uint(ray.last_valid));
+    } else {
+      is_dark = light_above(light, surface.xyz, surface.w * dot(surface.xyz, direction)) <= 0.0;
+      if (k_looks_away != 0u && ray.angle.cosine < 0.0 && !is_dark) {
+        uint beside_eye = alpha_cell(space, 0.5 * k_pi, k_alpha_count);
+        is_dark = is_shadowed(int((j * k_alpha_count + beside_eye) * k_texels_per_ray), 0u);
+      }
     }
-    ray.unknown = is_dark ? 0xffffffffu : 0u;
+    ray.beyond_valid = is_dark ? 0xffffffffu : 0u;
   }
   return ray;
 }
 
-// Bits 0 to `count` − 1 of a word.
-uint low_bits(uint count) { return count >= 32u ? 0xffffffffu : (1u << count) - 1u; }
-
 // Whether the grid ends before the ray, where all is lit; by more than the rounding of either's end.
 bool goes_beyond(VsvRay ray) { return ray.end > float(k_phi_count) + 0.05; }
 
-// The bits of a word that lie before the ray's end, all or in part.
-uint before_end(VsvRay ray, uint word) {
-  if (ray.end < 0.0) return 0u;
-  return word == ray.last_cell >> 5 ? low_bits((ray.last_cell & 31u) + 1u) : 0xffffffffu;
+// How many texels of its row of bits a ray reads.
+uint texel_count(VsvRay ray) { return ray.end < 0.0 ? 0u : (ray.last_cell >> 7) + 1u; }
+
+// Of the 128 bits of a texel those of the row's first `count` cells.
+uvec4 first_cells(int count, uint texel) {
+  ivec4 bits = clamp(ivec4(count - int(128u * texel)) - ivec4(0, 32, 64, 96), 0, 32);
+  // A shift by 32 has no value.
+  return uvec4(lessThan(bits, ivec4(32))) * (uvec4(1u) << uvec4(bits & 31)) - 1u;
 }
 
-// The bits of a word as this ray sees them: from the last valid cell on, all are like it. `before` carries the
-// preceding word's highest bit, in every place; start it with ray.unknown.
-uint seen_bits(VsvRay ray, uint bits, uint word, inout uint before) {
-  int valid = ray.last_valid - int(32u * word);  // the last valid bit of this word
-  if (valid < 31) {
-    uint keep = valid < 0 ? 0u : low_bits(uint(valid) + 1u);
-    uint fill = valid < 0 ? before : 0u - (bits >> uint(valid) & 1u);
-    bits = (bits & keep) | (fill & ~keep);
-  }
-  before = 0u - (bits >> 31);
-  return bits;
+// Those that lie before the ray's end, all or in part.
+uvec4 before_end(VsvRay ray, uint texel) { return first_cells(int(ray.last_cell) + 1, texel); }
+
+// The 128 bits of a texel as this ray sees them.
+uvec4 seen_bits(VsvRay ray, uint texel) {
+  uvec4 valid = first_cells(ray.last_valid + 1, texel);
+  return (texelFetch(grid_texels, ray.texel + int(texel)) & valid) | (ray.beyond_valid & ~valid);
+}
+
+// Where visibility changes: the bits that differ from the cell before. `last`: that cell's, of the first bit, and then of the next texel's.
+uvec4 changes_of(uvec4 shadow, inout uint last) {
+  uvec4 before = shadow << 1 | uvec4(last, shadow.xyz >> 31);
+  last = shadow.w >> 31;
+  return shadow ^ before;
+}
+
+// The number in its texel of the lowest set bit, of which there is one; clears it.
+uint take_lowest(inout uvec4 bits) {
+  uint word = bits.x != 0u ? 0u : bits.y != 0u ? 1u : bits.z != 0u ? 2u : 3u;
+  uint of_word = bits.x != 0u ? bits.x : bits.y != 0u ? bits.y : bits.z != 0u ? bits.z : bits.w;
+  uint rest = of_word & (of_word - 1u);
+  bits.w = word == 3u ? rest : bits.w;
+  bits.z = word == 2u ? rest : bits.z;
+  bits.y = word == 1u ? rest : bits.y;
+  bits.x = word == 0u ? rest : bits.x;
+  return 32u * word + uint(findLSB(of_word));
 }

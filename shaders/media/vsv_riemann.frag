@@ -55,16 +55,10 @@ void main() {
   outward = unit_or(outward, space.u);
   LayerRay in_layer = LayerRay(ray.direction, outward, ray.alpha, complement, ray.entry);
   vec3 sum = vec3(0.0);
-  uvec4 words;
-  uint before = ray.unknown;
-  for (uint word = 0u; word <= ray.last_cell >> 5; ++word) {
-    if ((word & 3u) == 0u) words = texelFetch(grid_texels, ray.texel + int(word >> 2));
-    uint lit = ~seen_bits(ray, words.x, word, before);
-    words.xyz = words.yzw;
-    lit &= before_end(ray, word);
-    while (lit != 0u) {
-      uint k = 32u * word + uint(findLSB(lit));
-      lit &= lit - 1u;
+  for (uint texel = 0u; texel < texel_count(ray); ++texel) {
+    uvec4 lit = ~seen_bits(ray, texel) & before_end(ray, texel);
+    while (lit != uvec4(0u)) {
+      uint k = 128u * texel + take_lowest(lit);
       float phi = phi_of_cell(ray.cells, float(k) + 0.5);
       float from = phi_of_cell(ray.cells, float(k));
       float to = phi_of_cell(ray.cells, float(k + 1u));

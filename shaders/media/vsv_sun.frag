@@ -25,33 +25,31 @@ void main() {
   float dark_range = 0.0;
   float lit_from = sun.entry;
   bool is_lit = true;
-  uint before = ray.unknown;
-  uint carry = 0u;
-  uint last_word = ray.last_cell >> 5;
-  uvec4 words;
-  for (uint word = 0u; word <= last_word; ++word) {
-    if ((word & 3u) == 0u) words = texelFetch(grid_texels, ray.texel + int(word >> 2));
-    uint shadow = seen_bits(ray, words.x, word, before);
-    words.xyz = words.yzw;
-    uint inside = before_end(ray, word);
+  uint last = 0u;
+  for (uint texel = 0u; texel < texel_count(ray); ++texel) {
+    uvec4 shadow = seen_bits(ray, texel);
+    uvec4 inside = before_end(ray, texel);
     if (k_sum == k_factored) {
-      float weight = phi_of_cell(ray.cells, float(32u * word + 32u)) - phi_of_cell(ray.cells, float(32u * word));
-      dark_range += stretch * weight / 32.0 * float(bitCount(shadow & inside));
-      lit_range += stretch * weight / 32.0 * float(bitCount(~shadow & inside));
+      for (uint word = 0u; word < 4u; ++word) {
+        float first = float(128u * texel + 32u * word);
+        float width = stretch * (phi_of_cell(ray.cells, first + 32.0) - phi_of_cell(ray.cells, first)) / 32.0;
+        dark_range += width * float(bitCount(shadow[word] & inside[word]));
+        lit_range += width * float(bitCount(~shadow[word] & inside[word]));
+      }
     } else if (k_sum == k_riemann) {
-      for (uint lit = ~shadow & inside; lit != 0u; lit &= lit - 1u) {
-        float k = float(32u * word + uint(findLSB(lit)));
+      uvec4 lit = ~shadow & inside;
+      while (lit != uvec4(0u)) {
+        float k = float(128u * texel + take_lowest(lit));
         float from = clamp(phi_of_cell(ray.cells, k) * stretch, sun.entry, sun.exit);
         float to = clamp(phi_of_cell(ray.cells, k + 1.0) * stretch, sun.entry, sun.exit);
         float path = sun.path + sun.slope * (0.5 * (from + to) - sun.entry);
         integral += (to - from) * exp(-min(medium.sigma_t * path, vec3(k_deepest)));
       }
     } else {
-      uint changes = (shadow ^ (shadow << 1 | carry)) & inside;
-      carry = shadow >> 31;
-      while (changes != 0u) {
-        float at = clamp(phi_of_cell(ray.cells, float(32u * word + uint(findLSB(changes)))) * stretch, sun.entry, sun.exit);
-        changes &= changes - 1u;
+      uvec4 changes = changes_of(shadow, last) & inside;
+      while (changes != uvec4(0u)) {
+        float k = float(128u * texel + take_lowest(changes));
+        float at = clamp(phi_of_cell(ray.cells, k) * stretch, sun.entry, sun.exit);
         if (is_lit) integral += integrate_sun_run(medium, sun, lit_from, at);
         is_lit = !is_lit;
         lit_from = at;

@@ -28,16 +28,6 @@ void add_entry(float place, uint row_start, float sign, inout vec2 sum[3]) {
   }
 }
 
-// Sum of ±T over the changes of visibility of one word. The first change is from light to shadow.
-void add_changes(VsvRay ray, uint changes, uint first_cell, uint row_start, inout float sign, inout vec2 sum[3]) {
-  while (changes != 0u) {
-    uint k = first_cell + uint(findLSB(changes));
-    changes &= changes - 1u;
-    add_entry(place_of_cell(ray.cells, float(k)), row_start, sign, sum);
-    sign = -sign;
-  }
-}
-
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   VsvRay ray = vsv_ray(pixel);
@@ -45,8 +35,7 @@ void main() {
   vec3 integral = vec3(0.0);
   if (ray.last_cell < k_direct_cells) {
     float complement = alpha_complement(ray.angle);
-    uint before = ray.unknown;
-    uint shadow = seen_bits(ray, texelFetch(grid_texels, ray.texel).x, 0u, before);
+    uint shadow = seen_bits(ray, 0u).x;
     float first = min(phi_of_cell(ray.cells, 0.0), ray.phi_end);
     integral += integrate_run(space, medium, k_phase, complement, 0.0, first);
     for (uint k = 0u; k <= ray.last_cell; ++k) {
@@ -67,25 +56,25 @@ void main() {
     float word_start = phi_of_cell(ray.cells, 0.0);
     float lit_range = min(word_start, ray.phi_end);  // of φ
     float dark_range = 0.0;
-    uint before = ray.unknown;  // the highest bit of the word before, in every place
-    uint carry = 0u;            // the same as a bit; what lies before the first word counts as lit
-    uint last_word = ray.last_cell >> 5;
-    uvec4 words;
-    for (uint word = 0u; word <= last_word; ++word) {
-      if ((word & 3u) == 0u) words = texelFetch(grid_texels, ray.texel + int(word >> 2));
-      uint shadow = seen_bits(ray, words.x, word, before);
-      words.xyz = words.yzw;
-      uint inside = before_end(ray, word);
+    uint last = 0u;  // what lies before the first cell counts as lit
+    for (uint texel = 0u; texel < texel_count(ray); ++texel) {
+      uvec4 shadow = seen_bits(ray, texel);
+      uvec4 inside = before_end(ray, texel);
       if (k_factored != 0u) {
-        float word_end = phi_of_cell(ray.cells, float(32u * word + 32u));
-        float width = (word_end - word_start) / 32.0;
-        dark_range += width * float(bitCount(shadow & inside));
-        lit_range += width * float(bitCount(~shadow & inside));
-        word_start = word_end;
+        for (uint word = 0u; word < 4u; ++word) {
+          float word_end = phi_of_cell(ray.cells, float(128u * texel + 32u * word + 32u));
+          float width = (word_end - word_start) / 32.0;
+          dark_range += width * float(bitCount(shadow[word] & inside[word]));
+          lit_range += width * float(bitCount(~shadow[word] & inside[word]));
+          word_start = word_end;
+        }
       } else {
-        uint changes = shadow ^ (shadow << 1 | carry);
-        carry = shadow >> 31;
-        add_changes(ray, changes & inside, 32u * word, row_start, sign, sum);
+        uvec4 changes = changes_of(shadow, last) & inside;
+        while (changes != uvec4(0u)) {
+          uint cell = 128u * texel + take_lowest(changes);
+          add_entry(place_of_cell(ray.cells, float(cell)), row_start, sign, sum);
+          sign = -sign;
+        }
       }
     }
     // Where the half-plane's cells end before the ray, all beyond is lit.

@@ -126,7 +126,7 @@ constexpr Function k_functions[] = {
     // Both kinds of light.
     {"phi_through", 1, 2 * k_single, 0},
     {"phi_at sun", 1, k_single, 2e-7, Scale::length},  // eye_angle.sine times t
-    {"phi_of_open_end", 1, k_angle, 4e-7},             // alpha_complement
+    {"phi_of_end", 1, k_angle, 4e-7},                  // alpha_complement
     {"crossing_of", 1, 3 * k_single, 0},               // over a cosine ≥ 0.37
     {"crossing_of sun", 1, 0, 0},
     {"phi_order_at", 1, 0, 2e-5},  // as phi_at

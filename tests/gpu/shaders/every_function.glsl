@@ -241,7 +241,7 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   sun_space.inverse_distance = 0.0f;
   put(outputs, at, float(phi_through(space, 0.3f * t, 0.7f)));
   put(outputs, at, float(phi_at(sun_space, angle, t)));
-  put(outputs, at, float(phi_of_open_end(space, angle)));
+  put(outputs, at, float(phi_of_end(space, angle, t, true)));
   put(outputs, at, crossing_of(space, 0.4f * phi));
   put(outputs, at, crossing_of(sun_space, phi));
   put(outputs, at, float(phi_order_at(space, angle, t)));
