@@ -74,7 +74,7 @@ case ${1:-} in
   sun)
     for scene in $suns; do
       compare "$scene" --size 512x512 -o "$out/sun_$scene" --frames 1 --quiet \
-        --volume "vsv,vsv:phi-cells=equal,vsv:ranges=alpha-phi,vsv:populate=conservative,vsv:integral=riemann,vsv:integral=factored"
+        --volume "vsv,vsv:phi-cells=equal,vsv:ranges=alpha-phi,vsv:populate=conservative,vsv:populate=screen-space,vsv:integral=riemann,vsv:integral=factored"
     done
     ;;
   sun-speed)

@@ -40,9 +40,9 @@ class Grids {
   std::pair<int, int> missed(int points) const {
     tests::Random random(7);
     const Resolution& n = k_resolution;
-    const glm::dvec3 eye = view_.camera.eye, to_light = view_.lights[0].position - eye;
-    const double D = glm::length(to_light);
-    const Axes axes = make_axes(to_light / D);
+    const scene::Light& light = view_.lights[0];
+    const glm::dvec3 eye = view_.camera.eye;
+    const Axes axes = make_axes(scene::direction_to(light, eye));
     int inside = 0, missed = 0;
     for (int sample = 0; sample < points; ++sample) {
       const glm::uvec3 triangle = geometry_.triangles[random.bits() % geometry_.triangles.size()];
@@ -51,11 +51,13 @@ class Grids {
                            (a - b) * glm::dvec3(geometry_.positions[triangle.y]) +
                            b * glm::dvec3(geometry_.positions[triangle.z]) - eye;
       const double x = glm::dot(p, axes.u), y = glm::dot(p, axes.f), z = glm::dot(p, axes.axis);
-      const double i = tests::cells_of_alpha(space_, std::atan2(std::hypot(x, y), z));
+      const double across = std::hypot(x, y);
+      const double i = tests::cells_of_alpha(space_, std::atan2(across, z));
       const double j = tests::cells_of_theta(space_, std::atan2(y, x));
       if (i >= n.alpha || j < 0 || j >= n.theta) continue;
-      const double k =
-          tests::cells_of_phi(cells_[static_cast<std::size_t>(j)], std::atan2(std::hypot(x, y), D - z));
+      const double phi =
+          scene::is_sun(light) ? across : std::atan2(across, glm::distance(light.position, eye) - z);
+      const double k = tests::cells_of_phi(cells_[static_cast<std::size_t>(j)], phi);
       if (k < 0 || k >= n.phi) continue;
       ++inside;
       missed += !tests::is_set(bits_, n, static_cast<int>(std::max(i, 0.0)), static_cast<int>(j),
@@ -102,12 +104,12 @@ TEST_P(ConservativeBuiltin, EveryPointIsInASetVoxel) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ConservativeBuiltin,
-                         testing::Values("cornell", "window", "sphere", "half-space"));
+                         testing::Values("cornell", "window", "sphere", "half-space", "nave"));
 
-class ConservativeShared : public testing::TestWithParam<int> {};
+class ConservativeShared : public testing::TestWithParam<tests::CyclesImage> {};
 
 TEST_P(ConservativeShared, EveryPointIsInASetVoxel) {
-  const tests::CyclesImage& truth = tests::k_cycles_airlight[GetParam()];
+  const tests::CyclesImage& truth = GetParam();
   AIRLIGHT_NEEDS(truth.scene_file());
   const scene::Scene scene = scene::import_scene(truth.scene_file());
   scene::View view = truth.view();
@@ -115,7 +117,10 @@ TEST_P(ConservativeShared, EveryPointIsInASetVoxel) {
   expect_conservative(scene.geometry, view);
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, ConservativeShared, testing::Values(1, 2, 3));
+INSTANTIATE_TEST_SUITE_P(Models, ConservativeShared,
+                         testing::Values(tests::k_cycles_airlight[1], tests::k_cycles_airlight[2],
+                                         tests::k_cycles_airlight[3], tests::k_cycles_sun_airlight[0],
+                                         tests::k_cycles_sun_airlight[1]));
 
 TEST(ConservativeSphere, IsDarkerThanItsShadowByNoMoreThanACell) {
   // A sphere's shadow grows by what conservative cells add at its outline: about one cell in each angle.
