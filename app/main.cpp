@@ -2,6 +2,8 @@
 #include <new>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -10,6 +12,7 @@
 #include "app/options.h"
 #include "app/output.h"
 #include "quality/results.h"
+#include "scene/choices.h"
 
 namespace airlight::app {
 namespace {
@@ -17,15 +20,14 @@ namespace {
 using scene::Error;
 using scene::ExitCode;
 
-void add_option(CLI::App& command, Options& options, const OptionLine& line) {
+/// An option whose value `read_words` takes: the parser knows it for its help, and loses the order in which
+/// options are given.
+void add_option(CLI::App& command, const OptionLine& line) {
   command
       .add_option_function<std::string>(
-          fmt::format("--{}", line.name),
-          [&options, name = std::string(line.name)](const std::string& value) {
-            options.given[name] = value;
-          },
-          line.help)
-      ->type_name(std::string(line.placeholder));
+          fmt::format("--{}", line.name), [](const std::string&) {}, line.help)
+      ->type_name(std::string(line.placeholder))
+      ->take_last();
 }
 
 /// What `render` and `compare` share.
@@ -35,18 +37,20 @@ CLI::App& add_image_command(CLI::App& app, Options& options, const char* name, c
       .add_option("SCENE", options.scene,
                   "a built-in scene's name, a shot (.toml), or a .gltf, .glb, .obj or .ply file")
       ->type_name("");
-  for (const OptionLine& line : common_options()) add_option(command, options, line);
+  for (const OptionLine& line : common_options()) add_option(command, line);
   command.add_flag("--quiet", options.quiet, "say nothing but errors");
   command.preparse_callback([&options, name](std::size_t) { options.command = name; });
   return command;
 }
 
-/// Says more than the parser would about a command line that cannot be.
-void require_sound_words(const CLI::App& app, int argc, char** argv) {
+/// Reads the options that have a value, and says more than the parser would about a command line that cannot
+/// be.
+/// @returns Options::given
+std::vector<std::pair<std::string, std::string>> read_words(const CLI::App& app, int argc, char** argv) {
   constexpr const char* k_commands = "use render, compare, scenes or info";
   if (argc < 2) throw Error(ExitCode::usage, "command line", "it names no command", k_commands);
   if (argv[1][0] == '-') {
-    if (app.get_option_no_throw(argv[1])) return;
+    if (app.get_option_no_throw(argv[1])) return {};
     throw Error(ExitCode::usage, argv[1], "there is no such option before a command", k_commands);
   }
   const auto commands = app.get_subcommands([&](const CLI::App* c) { return c->get_name() == argv[1]; });
@@ -54,11 +58,13 @@ void require_sound_words(const CLI::App& app, int argc, char** argv) {
   const CLI::App& command = *commands[0];
   const std::string help = fmt::format("see airlight {} --help", argv[1]);
   int names_left = command.get_option_no_throw("SCENE") ? 1 : 0;
-  std::set<const CLI::Option*> seen;
+  std::vector<std::pair<std::string, std::string>> given;
+  std::set<std::string> seen;
+  int lights = 0;
   for (int i = 2; i < argc; ++i) {
     const std::string word = argv[i];
     const bool is_long = word.starts_with("--");
-    if (word == "--") return;
+    if (word == "--") break;
     if (word.size() < 2 || word[0] != '-') {
       if (names_left-- == 0) throw Error(ExitCode::usage, word, "it is one word too many", help);
       continue;
@@ -66,12 +72,20 @@ void require_sound_words(const CLI::App& app, int argc, char** argv) {
     const std::string name = is_long ? word.substr(0, word.find('=')) : word.substr(0, 2);
     const CLI::Option* option = command.get_option_no_throw(name);
     if (!option) throw Error(ExitCode::usage, name, fmt::format("{} has no such option", argv[1]), help);
-    if (!seen.insert(option).second) throw Error(ExitCode::usage, name, "it is given twice", "give it once");
+    // Each light has its own.
+    const scene::FieldInfo* field = is_long ? scene::find_field(name.substr(2)) : nullptr;
+    const bool is_of_light = field && scene::is_of_light(*field);
+    if (is_of_light && scene::names_light(*field)) ++lights;
+    if (!seen.insert(is_of_light ? fmt::format("{} {}", name, lights) : name).second)
+      throw Error(ExitCode::usage, name, "it is given twice", "give it once");
     const bool takes_value = option->get_items_expected_max() > 0, has_value = word.size() > name.size();
     if (!takes_value && has_value) throw Error(ExitCode::usage, word, fmt::format("{} takes no value", name));
     if (takes_value && !has_value && ++i == argc)
       throw Error(ExitCode::usage, name, fmt::format("its {} is missing", option->get_type_name()), help);
+    if (takes_value && is_long)
+      given.emplace_back(name.substr(2), has_value ? word.substr(name.size() + 1) : argv[i]);
   }
+  return given;
 }
 
 int run(int argc, char** argv) {
@@ -87,9 +101,9 @@ int run(int argc, char** argv) {
   CLI::App& render_command = add_image_command(app, options, "render", "renders one image");
   render_command.add_option("-o", options.output, "the image: OpenEXR; a PNG preview goes beside it")
       ->type_name("FILE.exr");
-  add_option(render_command, options,
+  add_option(render_command,
              {"volume", "METHOD", "airlight (default: vsv; with a light texture vsv:integral=riemann)"});
-  add_option(render_command, options, {"surface", "METHOD", "surface shadow (default: shadow-map)"});
+  add_option(render_command, {"surface", "METHOD", "surface shadow (default: shadow-map)"});
 
   CLI::App& compare_command = add_image_command(
       app, options, "compare", "measures methods against the reference: time, error, images, report");
@@ -98,16 +112,16 @@ int run(int argc, char** argv) {
                   "folder for results.json, report.html and the images (default: out/SCENE)")
       ->type_name("DIR");
   add_option(
-      compare_command, options,
+      compare_command,
       {"volume", "LIST",
        "methods of airlight, separated by commas (default: vsv,vsv:integral=riemann,reference-march; with a "
        "light texture without the first)"});
-  add_option(compare_command, options,
+  add_option(compare_command,
              {"surface", "LIST", "methods of surface shadow, separated by commas (default: shadow-map)"});
-  add_option(compare_command, options, {"frames", "N", "frames timed a run, after warm-up (default: 5)"});
-  add_option(compare_command, options,
+  add_option(compare_command, {"frames", "N", "frames timed a run, after warm-up (default: 5)"});
+  add_option(compare_command,
              {"max-error", "X", "exit with 1 where a method's airlight has an rrmse above this, as in 0.02"});
-  add_option(compare_command, options,
+  add_option(compare_command,
              {"json", "FILE", "write the results there too; - means standard output, instead of the table"});
   compare_command.add_flag(
       "--debug", options.debug,
@@ -120,7 +134,7 @@ int run(int argc, char** argv) {
   CLI::App& info_command = *app.add_subcommand("info", "tells the driver and its limits");
 
   try {
-    require_sound_words(app, argc, argv);
+    options.given = read_words(app, argc, argv);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // help or version

@@ -20,6 +20,9 @@ constexpr std::size_t k_bytes_of_render = 90;
 /// The same and the truth, a run's images, and what its errors are found in.
 constexpr std::size_t k_bytes_of_compare = 190;
 
+/// What each further light adds: its airlight and visibility, and a copy of each.
+constexpr std::size_t k_bytes_of_light = 40;
+
 /// Out of memory a driver aborts, or says that it is not there: what cannot fit is refused before it is
 /// woken.
 /// @throws scene::Error (driver) naming the size, what it takes and what is left: of the address space that

@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 #include <fmt/format.h>
@@ -72,21 +73,47 @@ scene::Scene load_scene(const Options& options) {
   return scene::import_scene(file);
 }
 
-/// The choices of a command line, all of which are read before a scene is.
 class OptionChoices final : public scene::Choices {
  public:
-  explicit OptionChoices(const Options& options) {
-    for (const scene::FieldInfo* field : scene::every_field())
-      if (const auto text = options.get(std::string(field->name)))
-        add(*field, value_of_text(*field, spell(*field), *text, quality::read_light_texture));
-  }
-
   std::string spell(const scene::FieldInfo& field) const override { return fmt::format("--{}", field.name); }
   Error error(const scene::FieldInfo& field, const std::string& problem,
               const std::string& remedy) const override {
     return usage(spell(field), problem, remedy);
   }
 };
+
+/// The choices of a command line, all of which are read before a scene is.
+struct ViewChoices {
+  OptionChoices of_view;  ///< all that is no light's
+  std::vector<std::unique_ptr<const scene::Choices>> of_lights;
+};
+
+ViewChoices read_choices(const Options& options) {
+  ViewChoices choices;
+  // What stands before the first light is a light's of its own, or of the only one that follows.
+  std::vector<std::unique_ptr<OptionChoices>> lights;
+  const scene::FieldInfo* before_lights = nullptr;
+  std::size_t named = 0;
+  for (const auto& [name, text] : options.given) {
+    const scene::FieldInfo* field = scene::find_field(name);
+    if (!field) continue;
+    OptionChoices* of_field = &choices.of_view;
+    if (scene::is_of_light(*field)) {
+      const bool begins = scene::names_light(*field) && (named++ > 0 || lights.empty());
+      if (begins || lights.empty()) lights.push_back(std::make_unique<OptionChoices>());
+      if (named == 0 && !before_lights) before_lights = field;
+      of_field = lights.back().get();
+    }
+    if (of_field->get(*field)) throw usage(of_field->spell(*field), "it is given twice", "give it once");
+    of_field->add(*field, value_of_text(*field, of_field->spell(*field), text, quality::read_light_texture));
+  }
+  if (named > 1 && before_lights)
+    throw usage(
+        choices.of_view.spell(*before_lights), "it stands before the lights, and is none's",
+        "let it follow the option that begins its light: --light, --light-position, --sun or --sun-angles");
+  for (auto& light : lights) choices.of_lights.push_back(std::move(light));
+  return choices;
+}
 
 }  // namespace
 
@@ -117,14 +144,14 @@ std::string Options::command_line(std::span<const std::string> without) const {
 
 Subject make_subject(const Options& options) {
   // What is wrong with the words is said before a long file is read.
-  const OptionChoices choices(options);
+  const ViewChoices choices = read_choices(options);
   Subject subject{load_scene(options), {}, {}};
-  choose_all(choices, subject.scene);
+  choose_all(choices.of_view, choices.of_lights, subject.scene);
   if (subject.scene.lights.empty())
     throw usage(options.scene, "it has no light",
                 "give one with --light-position x,y,z --intensity r,g,b or --sun x,y,z --irradiance r,g,b");
-  subject.view = {subject.scene.cameras[0], {subject.scene.lights[0]}, subject.scene.medium};
-  choose(choices, subject.view);
+  subject.view = {subject.scene.cameras[0], subject.scene.lights, subject.scene.medium};
+  choose(choices.of_view, subject.view);
   subject.exposure = subject.scene.exposure;
   scene::validate(subject.view);
   return subject;

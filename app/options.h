@@ -1,10 +1,11 @@
 #pragma once
 
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "quality/methods.h"
 #include "scene/scene.h"
@@ -25,15 +26,18 @@ std::span<const OptionLine> common_options();
 struct Options {
   std::string command;  ///< "render" or "compare"
   std::string scene;    ///< SCENE
-  std::map<std::string, std::string>
-      given;           ///< value of each option that was typed, by its name without dashes
+  /// Each option that was typed, by its name without dashes, and its value, in their order: those of lights
+  /// may be there several times.
+  std::vector<std::pair<std::string, std::string>> given;
   std::string output;  ///< -o; empty without
   bool quiet = false;
   bool debug = false;  ///< of `compare`
 
-  std::optional<std::string> get(const std::string& name) const {
-    const auto found = given.find(name);
-    return found == given.end() ? std::nullopt : std::optional(found->second);
+  /// Of an option that is no light's.
+  std::optional<std::string> get(std::string_view name) const {
+    for (const auto& [given_name, value] : given)
+      if (given_name == name) return value;
+    return std::nullopt;
   }
 
   /// The command line again, ready for a shell, without -o and the options named.

@@ -47,7 +47,7 @@ void render(const Options& options) {
   if (!options.quiet) say_warnings(subject.scene.report);
 
   require_memory({.size = subject.view.size,
-                  .bytes_per_pixel = k_bytes_of_render,
+                  .bytes_per_pixel = k_bytes_of_render + k_bytes_of_light * (subject.view.lights.size() - 1),
                   .shadow_map = quality::is_read("shadow-map", volumes, surfaces) ? shadow_map : 0,
                   .triangles = subject.scene.geometry.triangles.size()});
   frame::FrameImages images;
@@ -96,6 +96,8 @@ void render(const Options& options) {
     if (black)
       say("airlight: warning: the image is black: " +
           quality::why_black(subject.scene.geometry, subject.view));
+    if (const std::string skipped = quality::skipped_lights(images); !skipped.empty())
+      say(fmt::format("skipped, because they cannot reach the view: {}", skipped));
     say(fmt::format("{} and {} written, exposure {:.4g}{}", output.string(), preview.string(), exposure,
                     subject.exposure || black ? "" : " (automatic: the 95th percentile maps to 0.8)"));
   }

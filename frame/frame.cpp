@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "frame/blocks.h"
+#include "frame/light_reach.h"
 #include "scene/error.h"
 
 #include "spirv/frame/composite_frag.h"
@@ -115,7 +116,7 @@ void Frame::require_images(const scene::View& view, gpu::Format visibility_forma
     }
     gbuffer_.emplace(view.size);
     visibility_.clear();
-    light_airlight_ = {};
+    airlight_of_light_.clear();
     airlight_ = gpu::Texture(gpu::Format::rgba32f, view.size);
     radiance_ = gpu::Texture(gpu::Format::rgba32f, view.size);
   }
@@ -126,8 +127,9 @@ void Frame::require_images(const scene::View& view, gpu::Format visibility_forma
     // The compositor multiplies with RGB.
     if (visibility_format == gpu::Format::r32f) visibility.sample_as_grey();
   }
-  if (view.lights.size() > 1 && light_airlight_.size() != view.size)
-    light_airlight_ = gpu::Texture(gpu::Format::rgba32f, view.size);
+  airlight_of_light_.resize(view.lights.size() > 1 ? view.lights.size() : 0);
+  for (gpu::Texture& airlight : airlight_of_light_)
+    if (airlight.size() != view.size) airlight = gpu::Texture(gpu::Format::rgba32f, view.size);
 }
 
 void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airlight& airlight,
@@ -139,6 +141,7 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
   const SceneBuffers& scene = resources_.scene();
 
   // What the camera sees.
+  timer.begin_part({});
   timer.time("surfaces", [&] {
     double distance = std::numeric_limits<double>::infinity();
     for (const scene::Light& light : view.lights)
@@ -150,8 +153,20 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
   });
 
   // What each light adds.
+  lights_.clear();
+  is_skipped_.clear();
+  const bool sees_every_light = surface_shadow.sees_every_light() || airlight.sees_every_light();
+  bool is_empty = true;
   for (std::size_t i = 0; i < view.lights.size(); ++i) {
     const scene::Light& light = view.lights[i];
+    lights_.push_back(light.name);
+    is_skipped_.push_back(!sees_every_light && !may_reach(view, light));
+    if (is_skipped_[i]) {
+      visibility_[i].clear();
+      airlight_of(i).clear();
+      continue;
+    }
+    timer.begin_part(i);
     resources_.begin_light(light, camera);
     const std::optional<ShadowPlane>& plane = resources_.shadow_plane();
     const float near =
@@ -166,15 +181,19 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
                              .surfaces = gbuffer_->surfaces(),
                              .resources = resources_,
                              .timer = timer};
-    const gpu::Texture& light_airlight = i == 0 ? airlight_ : light_airlight_;
     surface_shadow.query(inputs, visibility_[i]);  // times its own stages, …
-    airlight.integrate(inputs, light_airlight);    // … and so does airlight
-    timer.time("composite", [&] { composite(visibility_[i], light_airlight, i > 0); });
+    airlight.integrate(inputs, airlight_of(i));    // … and so does airlight
+    timer.time("composite", [&] { composite(i, !is_empty); });
+    is_empty = false;
+  }
+  if (is_empty) {
+    radiance_.clear();
+    airlight_.clear();
   }
   context_.check();
 }
 
-void Frame::composite(const gpu::Texture& visibility, const gpu::Texture& airlight, bool adds) {
+void Frame::composite(std::size_t light, bool adds) {
   const gpu::Texture* light_texture = resources_.light_texture();
   const bool is_textured = light_texture != nullptr;
   auto& pass = composite_[{is_textured, adds}];
@@ -185,13 +204,13 @@ void Frame::composite(const gpu::Texture& visibility, const gpu::Texture& airlig
   resources_.scene().bind_samplers();
   gbuffer_->triangles().bind_sampler(shaders::k_triangle_unit);
   gbuffer_->surfaces().bind_sampler(shaders::k_surface_unit);
-  visibility.bind_sampler(shaders::k_visibility_unit);
-  airlight.bind_sampler(shaders::k_airlight_unit);
+  visibility_[light].bind_sampler(shaders::k_visibility_unit);
+  airlight_of(light).bind_sampler(shaders::k_airlight_unit);
   if (light_texture) light_texture->bind_sampler(shaders::k_light_texture_unit);
-  if (adds) {
-    pass->run({radiance_, airlight_});
-  } else {
+  if (airlight_of_light_.empty()) {
     pass->run({radiance_});
+  } else {
+    pass->run({radiance_, airlight_});
   }
 }
 
@@ -200,6 +219,10 @@ FrameImages Frame::read() const {
   images.size = radiance_.size();
   images.radiance = read_rgb(radiance_, "radiance");
   images.airlight = read_rgb(airlight_, "airlight");
+  images.lights = lights_;
+  images.is_skipped = is_skipped_;
+  for (const gpu::Texture& texture : airlight_of_light_)
+    images.airlight_of_light.push_back(read_rgb(texture, "airlight"));
   images.distance = read_distance(gbuffer_->surfaces());
   for (const gpu::Texture& texture : visibility_)
     images.visibility.push_back(read_visibility(texture, images.distance));
@@ -218,7 +241,12 @@ FrameImages Frame::take() {
   // What frees the most goes first.
   images.distance = read_distance(gbuffer_->surfaces());
   gbuffer_.reset();
-  light_airlight_ = {};
+  images.lights = lights_;
+  images.is_skipped = is_skipped_;
+  for (gpu::Texture& texture : airlight_of_light_) {
+    images.airlight_of_light.push_back(read_rgb(texture, "airlight"));
+    texture = {};
+  }
   for (gpu::Texture& texture : visibility_) {
     images.visibility.push_back(read_visibility(texture, images.distance));
     texture = {};

@@ -20,8 +20,13 @@ struct FrameImages {
   std::vector<glm::vec3> radiance;  ///< surfaces and airlight [W/(m² sr)]
   std::vector<glm::vec3> airlight;  ///< airlight alone [W/(m² sr)]
 
+  std::vector<std::string> lights;  ///< the name of each
+  std::vector<bool> is_skipped;  ///< for each light, whether it was left out because it cannot reach the view
+  std::vector<std::vector<glm::vec3>> airlight_of_light;  ///< for each light, where there are several
+
   /// For each light the part of it that arrives at each surface: 1 where it sees the light, 0 in shadow and
-  /// where no surface is seen; the mean over RGB where occluders let colours through.
+  /// where no surface is seen; the mean over RGB where occluders let colours through. 0 of a light that was
+  /// skipped.
   std::vector<std::vector<float>> visibility;
   std::vector<float> distance;  ///< along the view ray [m], 0 where no surface is seen
 };
@@ -34,7 +39,9 @@ class Frame {
   /// @param shadow_map_size side of a cube face [texels]; used only by methods that ask for a shadow map
   Frame(gpu::Context& context, const scene::Geometry& geometry, int shadow_map_size);
 
-  /// Issues all work of one frame to the GPU, without waiting for it where `timer` is off.
+  /// Issues all work of one frame to the GPU, without waiting for it where `timer` is off. Of the timer's
+  /// parts number i is that of light i. A light that cannot reach the view is skipped, unless a method sees
+  /// every one.
   /// @throws scene::Error (bad_file) where scene::validate does; (driver) for an image over the driver's
   /// limit.
   void render(const scene::View& view, SurfaceShadow& surface_shadow, Airlight& airlight,
@@ -52,18 +59,24 @@ class Frame {
 
  private:
   void require_images(const scene::View& view, gpu::Format visibility_format);
-  void composite(const gpu::Texture& visibility, const gpu::Texture& airlight, bool adds);
+  void composite(std::size_t light, bool adds);
+  /// The airlight of one light: of a light alone, all there is.
+  const gpu::Texture& airlight_of(std::size_t light) const {
+    return airlight_of_light_.empty() ? airlight_ : airlight_of_light_[light];
+  }
 
   gpu::Context& context_;
   Resources resources_;
   gpu::Buffer camera_block_, light_block_, medium_block_;
   std::map<std::pair<bool, bool>, std::optional<ScreenPass>>
-      composite_;  ///< by: the light is textured, it adds
+      composite_;  ///< by: the light is textured, it adds to others
 
   std::optional<GBuffer> gbuffer_;
-  std::vector<gpu::Texture> visibility_;  ///< one a light
-  gpu::Texture airlight_;                 ///< of all lights
-  gpu::Texture light_airlight_;           ///< of one light after the first
+  std::vector<std::string> lights_;
+  std::vector<bool> is_skipped_;
+  std::vector<gpu::Texture> visibility_;         ///< one a light
+  gpu::Texture airlight_;                        ///< of all lights
+  std::vector<gpu::Texture> airlight_of_light_;  ///< one a light, where there are several
   gpu::Texture radiance_;
 };
 

@@ -57,6 +57,9 @@ class SurfaceShadow {
   /// @param visibility of the image's size; what it holds where no surface is seen does not matter
   virtual void query(const FrameInputs& inputs, const gpu::Texture& visibility) = 0;
 
+  /// Whether it is asked of lights, too, that cannot reach the view (may_reach).
+  virtual bool sees_every_light() const { return false; }
+
   /// Memory of its own on the GPU, by name.
   virtual std::map<std::string, std::int64_t> bytes() const { return {}; }
 };
@@ -77,6 +80,9 @@ class Airlight {
   /// Writes the light scattered once towards the eye along each view ray, RGB [W/(m² sr)]. Times its stages.
   /// @param radiance rgba32f, of the image's size
   virtual void integrate(const FrameInputs& inputs, const gpu::Texture& radiance) = 0;
+
+  /// As of a SurfaceShadow.
+  virtual bool sees_every_light() const { return false; }
 
   /// Memory of its own on the GPU, by name.
   virtual std::map<std::string, std::int64_t> bytes() const { return {}; }

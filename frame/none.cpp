@@ -18,7 +18,7 @@ SurfaceMethod no_shadow_method() {
 }
 
 void NoAirlight::integrate(const FrameInputs&, const gpu::Texture& radiance) {
-  glClearTexImage(radiance.name(), 0, GL_RGBA, GL_FLOAT, nullptr);
+  radiance.clear();
 }
 
 AirlightMethod no_airlight_method() {

@@ -15,6 +15,8 @@ Resources::Resources(gpu::Context& context, const scene::Geometry& geometry, int
 
 void Resources::begin_frame() {
   shadow_map_bytes_ = 0;
+  std::erase_if(light_textures_, [](const auto& texture) { return !texture.second.is_used; });
+  for (auto& texture : light_textures_) texture.second.is_used = false;
 }
 
 void Resources::begin_light(const scene::Light& light, const scene::CameraFrame& camera) {
@@ -26,23 +28,23 @@ void Resources::begin_light(const scene::Light& light, const scene::CameraFrame&
   if (!shadow_plane_)
     triangles_at_light_ = scene_.triangles_at(light.position, glm::distance(light.position, camera.eye));
   if (shadow_map_) shadow_map_->reset();
-  if (light.texture == light_texture_) return;
-  light_texture_ = light.texture;
-  light_texture_texels_ = {};
-  if (!light_texture_) return;
-  const glm::ivec2 size = light_texture_->size();
+  if (!light.texture) return;
+  LightTexels& on_gpu = light_textures_[light.texture];
+  on_gpu.is_used = true;
+  const glm::ivec2 size = light.texture->size();
+  if (on_gpu.texels.size() == size) return;
   const int limit = context_.limits().max_texture_size;
   if (std::max(size.x, size.y) > limit) {
-    throw scene::Error(scene::ExitCode::driver, light_texture_->name(),
+    throw scene::Error(scene::ExitCode::driver, light.texture->name(),
                        fmt::format("{}x{} texels are more than this driver's {} (GL_MAX_TEXTURE_SIZE)",
                                    size.x, size.y, limit),
                        "scale the image down");
   }
   std::vector<glm::vec4> texels;
-  texels.reserve(light_texture_->texels().size());
-  for (const glm::vec3& texel : light_texture_->texels()) texels.emplace_back(texel, 0.0f);
-  light_texture_texels_ = gpu::Texture(gpu::Format::rgba32f, size);
-  light_texture_texels_.write(texels.data());
+  texels.reserve(light.texture->texels().size());
+  for (const glm::vec3& texel : light.texture->texels()) texels.emplace_back(texel, 0.0f);
+  on_gpu.texels = gpu::Texture(gpu::Format::rgba32f, size);
+  on_gpu.texels.write(texels.data());
 }
 
 const gpu::Texture& Resources::shadow_map(double reach, gpu::StageTimer& timer) {
@@ -81,7 +83,8 @@ const scene::Components& Resources::components(gpu::StageTimer& timer) {
 std::map<std::string, std::int64_t> Resources::bytes() const {
   std::map<std::string, std::int64_t> bytes = {{"scene", scene_.bytes()}};
   if (shadow_map_bytes_ > 0) bytes["shadow_map"] = shadow_map_bytes_;
-  if (light_texture_) bytes["light_texture"] = light_texture_texels_.bytes();
+  for (const auto& [texture, on_gpu] : light_textures_)
+    if (on_gpu.is_used) bytes["light_texture"] += on_gpu.texels.bytes();
   return bytes;
 }
 

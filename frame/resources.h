@@ -47,7 +47,9 @@ class Resources {
   const gpu::Texture& shadow_map(double reach, gpu::StageTimer& timer);
 
   /// rgba32f, by direction (light_texture.glsl); nullptr where the light has none.
-  const gpu::Texture* light_texture() const { return light_texture_ ? &light_texture_texels_ : nullptr; }
+  const gpu::Texture* light_texture() const {
+    return light_->texture ? &light_textures_.at(light_->texture).texels : nullptr;
+  }
 
   /// Stage `edges`.
   const scene::Edges& edges(gpu::StageTimer& timer);
@@ -73,8 +75,11 @@ class Resources {
   bool shadow_plane_is_drawn_ = false;
   std::int64_t shadow_map_bytes_ = 0;  ///< of those used in this frame
 
-  std::shared_ptr<const scene::LightTexture> light_texture_;  ///< the one on the GPU
-  gpu::Texture light_texture_texels_;
+  struct LightTexels {
+    gpu::Texture texels;
+    bool is_used = false;  ///< in this frame
+  };
+  std::map<std::shared_ptr<const scene::LightTexture>, LightTexels> light_textures_;
 
   std::optional<scene::Edges> edges_;
   std::optional<scene::Components> components_;

@@ -137,6 +137,10 @@ void Texture::bind_image(unsigned unit, int level) const {
   glBindImageTexture(unit, name(), level, GL_TRUE, 0, GL_READ_WRITE, format_info(format_).internal_format);
 }
 
+void Texture::clear() const {
+  glClearTexImage(name(), 0, GL_RGBA, GL_FLOAT, nullptr);
+}
+
 void Texture::write(const void* values, int level) const {
   const FormatInfo info = format_info(format_);
   const glm::ivec3 size = extent(level);

@@ -79,6 +79,9 @@ class Texture {
   void bind_sampler(unsigned unit) const;
   void bind_image(unsigned unit, int level = 0) const;  ///< for reads and writes, with all layers
 
+  /// Zeros in the first level.
+  void clear() const;
+
   /// Writes a level. @param values as `read` returns them
   void write(const void* values, int level = 0) const;
 

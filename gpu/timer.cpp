@@ -32,7 +32,7 @@ void StageTimer::end() {
 }
 
 void StageTimer::mark() {
-  Mark mark{.stage = running_.empty() ? "" : running_.back(), .wall = {}, .query = {}};
+  Mark mark{.stage = running_.empty() ? "" : running_.back(), .part = part_, .wall = {}, .query = {}};
   if (clock_ == StageClock::wall) {
     context_->finish();
     mark.wall = Clock::now();
@@ -55,11 +55,11 @@ double StageTimer::milliseconds_between(const Mark& from, const Mark& to) const 
   return static_cast<double>(static_cast<std::int64_t>(end - start)) * 1e-6;
 }
 
-std::map<std::string, double> StageTimer::milliseconds() const {
+std::map<std::string, double> StageTimer::milliseconds(std::optional<std::size_t> part) const {
   assert(running_.empty());
   std::map<std::string, double> milliseconds;
   for (std::size_t i = 0; i + 1 < marks_.size(); ++i) {
-    if (!marks_[i].stage.empty())
+    if (!marks_[i].stage.empty() && (!part || marks_[i].part == part))
       milliseconds[marks_[i].stage] += milliseconds_between(marks_[i], marks_[i + 1]);
   }
   return milliseconds;

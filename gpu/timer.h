@@ -1,7 +1,9 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,8 +44,12 @@ class StageTimer {
     end();
   }
 
-  /// Of each stage that has run [ms]. Waits for the GPU to have got so far. No stage is running.
-  std::map<std::string, double> milliseconds() const;
+  /// What runs from now on is of this part of the frame, or of none.
+  void begin_part(std::optional<std::size_t> part) { part_ = part; }
+
+  /// Of each stage that has run [ms], in one part of the frame or in all of it. Waits for the GPU to have got
+  /// so far. No stage is running.
+  std::map<std::string, double> milliseconds(std::optional<std::size_t> part = {}) const;
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -51,6 +57,7 @@ class StageTimer {
   /// A moment, and which stage the time after it belongs to; "" for none.
   struct Mark {
     std::string stage;
+    std::optional<std::size_t> part;
     Clock::time_point wall;
     Handle<delete_query> query;
   };
@@ -63,6 +70,7 @@ class StageTimer {
   Context* context_;
   StageClock clock_ = StageClock::wall;
   std::vector<std::string> running_;  ///< innermost last
+  std::optional<std::size_t> part_;
   std::vector<Mark> marks_;
 };
 

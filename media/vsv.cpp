@@ -69,8 +69,9 @@ std::uint32_t direct_cells(const shaders::EpipolarBlock& space, const epipolar::
 Vsv::Vsv(const gpu::Context& context, const VsvOptions& options)
     : options_(options), volume_(context.limits(), options.volume) {}
 
-void Vsv::load(const gpu::Context& context, const Variant& variant) {
-  if (loaded_ == variant) return;
+const Vsv::Programs& Vsv::load(const gpu::Context& context, const Variant& variant) {
+  if (const auto found = programs_.find(variant); found != programs_.end()) return found->second;
+  Programs programs;
   const epipolar::Resolution& resolution = volume_.grid().resolution();
   const auto grid = epipolar::resolution_constants(resolution);
   const std::array<gpu::Constant, 12> constants = {
@@ -86,25 +87,28 @@ void Vsv::load(const gpu::Context& context, const Variant& variant) {
       gpu::Constant(9, variant.rough),
       gpu::Constant(10, variant.layer),
       gpu::Constant(11, variant.looks_away)};
-  phi_growth_ = gpu::Pipeline::compute(k_phi_growth_comp, std::array{grid[0], constants[3]});
+  programs.phi_growth = gpu::Pipeline::compute(k_phi_growth_comp, std::array{grid[0], constants[3]});
   if (variant.sun) {
     const auto sum = static_cast<std::uint32_t>(options_.integral);
-    integrate_ = frame::ScreenPass(k_vsv_sun_frag,
-                                   std::array{grid[0], grid[1], grid[2], constants[3], gpu::Constant(6, sum),
-                                              constants[8], constants[10], constants[11]});
+    programs.integrate = frame::ScreenPass(
+        k_vsv_sun_frag, std::array{grid[0], grid[1], grid[2], constants[3], gpu::Constant(6, sum),
+                                   constants[8], constants[10], constants[11]});
   } else if (options_.integral != VsvIntegral::riemann) {
-    build_table_ = gpu::Pipeline::compute(k_vsv_table_build_comp, constants);
-    integrate_ = frame::ScreenPass(k_vsv_table_frag, constants);
-    table_ =
-        gpu::Buffer(std::int64_t{table_rows(variant.rough)} * (resolution.phi + 2) * variant.channels * 16);
-    table_texels_ = {context.limits(), table_, gpu::Format::rgba32f, "the table integral"};
+    programs.build_table = gpu::Pipeline::compute(k_vsv_table_build_comp, constants);
+    programs.integrate = frame::ScreenPass(k_vsv_table_frag, constants);
+    const std::int64_t bytes =
+        std::int64_t{table_rows(variant.rough)} * (resolution.phi + 2) * variant.channels * 16;
+    if (table_.bytes() < bytes) {
+      table_ = gpu::Buffer(bytes);
+      table_texels_ = {context.limits(), table_, gpu::Format::rgba32f, "the table integral"};
+    }
   } else {
-    integrate_ = frame::ScreenPass(
+    programs.integrate = frame::ScreenPass(
         k_vsv_riemann_frag,
         std::array{grid[0], grid[1], grid[2], constants[3], gpu::Constant(4, variant.light_textured),
                    constants[8], constants[9], constants[10], constants[11]});
   }
-  loaded_ = variant;
+  return programs_.emplace(variant, std::move(programs)).first->second;
 }
 
 std::optional<frame::Refusal> VsvOptions::refusal(const scene::View& view) const {
@@ -139,12 +143,13 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
   const shaders::EpipolarBlock space = volume_.find_ranges(inputs, !(rough && has_table));
   const glm::vec3 sigma_t = inputs.view.medium.sigma_s + inputs.view.medium.sigma_a;
   const bool is_grey = sigma_t.x == sigma_t.y && sigma_t.y == sigma_t.z;
-  load(inputs.context,
-       {static_cast<std::uint32_t>(inputs.view.medium.phase), is_grey ? 1u : 3u,
-        direct_cells(space, volume_.grid().resolution()), light_texture != nullptr, rough, is_sun, layer,
-        alpha_max(space, volume_.grid().resolution()) > 0.5f * shaders::k_half_turn});
+  const Programs& programs =
+      load(inputs.context,
+           {static_cast<std::uint32_t>(inputs.view.medium.phase), is_grey ? 1u : 3u,
+            direct_cells(space, volume_.grid().resolution()), light_texture != nullptr, rough, is_sun, layer,
+            alpha_max(space, volume_.grid().resolution()) > 0.5f * shaders::k_half_turn});
   if (options_.phi_cells == PhiCells::growing)
-    inputs.timer.time("ranges", [&] { phi_growth_.dispatch({1, 1, 1}); });
+    inputs.timer.time("ranges", [&] { programs.phi_growth.dispatch({1, 1, 1}); });
 
   // Visibility.
   volume_.fill(inputs);
@@ -153,14 +158,14 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
   if (has_table) {
     inputs.timer.time("table", [&] {
       table_.bind_storage(shaders::k_table_storage);
-      build_table_.dispatch({table_rows(loaded_->rough), 1, 1});
+      programs.build_table.dispatch({table_rows(rough), 1, 1});
     });
   }
   inputs.timer.time("integrate", [&] {
     inputs.surfaces.bind_sampler(shaders::k_surface_unit);
     if (has_table) table_texels_.bind_sampler(shaders::k_table_unit);
     if (light_texture) light_texture->bind_sampler(shaders::k_light_texture_unit);
-    integrate_.run({radiance});
+    programs.integrate.run({radiance});
   });
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <compare>
+#include <map>
 #include <optional>
 
 #include "epipolar/volume.h"
@@ -62,17 +64,20 @@ class Vsv : public frame::Airlight {
     bool rough, sun;
     std::uint32_t layer;
     bool looks_away;
-    bool operator==(const Variant&) const = default;
+    auto operator<=>(const Variant&) const = default;
   };
-  void load(const gpu::Context& context, const Variant& variant);
+  struct Programs {
+    gpu::Pipeline phi_growth, build_table;
+    frame::ScreenPass integrate;
+  };
+  /// Those of a variant, and a table with room for it. Lights of a frame may be of different ones, in turns.
+  const Programs& load(const gpu::Context& context, const Variant& variant);
 
   VsvOptions options_;
   epipolar::ShadowVolume volume_;
-  std::optional<Variant> loaded_;
+  std::map<Variant, Programs> programs_;
   gpu::Buffer table_;
   gpu::TexelView table_texels_;
-  gpu::Pipeline phi_growth_, build_table_;
-  frame::ScreenPass integrate_;
 };
 
 frame::AirlightMethod vsv_method();

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include <fmt/format.h>
 
+#include "frame/light_reach.h"
 #include "quality/truth.h"
 #include "scene/components.h"
 #include "scene/edges.h"
@@ -82,18 +82,6 @@ std::string enclosure(const scene::Geometry& geometry, glm::dvec3 light, glm::dv
                      holds_light ? "eye" : "light");
 }
 
-/// How much of the medium each path from the light to the eye has to pass at least [m].
-double shortest_path(const scene::View& view, const scene::Light& light) {
-  const double between = is_sun(light) ? std::numeric_limits<double>::infinity()
-                                       : glm::distance(light.position, view.camera.eye);
-  // A sun's own path has no length in a medium without a top. In a layer, paths lead at least from its top
-  // down to the eye, and from a lamp up to it where that is shorter than straight through.
-  if (!view.medium.top) return is_sun(light) ? 0.0 : between;
-  const auto below_top = [&](double y) { return std::max(*view.medium.top - y, 0.0); };
-  return std::min(between,
-                  below_top(view.camera.eye.y) + (is_sun(light) ? 0.0 : below_top(light.position.y)));
-}
-
 /// A point where the light is; of a sun, one that lies towards it beyond all geometry.
 glm::dvec3 place_of(const scene::Light& light, const scene::Geometry& geometry) {
   if (!is_sun(light)) return light.position;
@@ -112,7 +100,7 @@ bool is_black(const std::vector<glm::vec3>& radiance) {
 std::string why_black(const scene::Geometry& geometry, const scene::View& view) {
   std::string why;
   for (const scene::Light& light : view.lights) {
-    const double path = shortest_path(view, light);
+    const double path = frame::shortest_path(view, light);
     const glm::vec3 extinction = view.medium.sigma_s + view.medium.sigma_a;
     const double depth = path * static_cast<double>(std::min({extinction.x, extinction.y, extinction.z}));
     std::string of_light;
@@ -124,12 +112,14 @@ std::string why_black(const scene::Geometry& geometry, const scene::View& view) 
           "no path from the light to the eye is shorter than {:.3g} m in the medium, which lets through "
           "e^-{:.4g}",
           path, depth);
+    } else if (!frame::may_reach(view, light)) {
+      of_light = "nothing that is seen lies within the light's cone and range";
     } else {
       of_light = enclosure(geometry, place_of(light, geometry), view.camera.eye);
     }
     if (of_light.empty()) return "whatever is seen lies in shadow, or neither reflects nor scatters";
-    if (why.find(of_light) == std::string::npos)
-      why += fmt::format("{}{}", why.empty() ? "" : "; ", of_light);
+    if (view.lights.size() > 1) of_light = fmt::format("of light '{}': {}", light.name, of_light);
+    why += fmt::format("{}{}", why.empty() ? "" : "; ", of_light);
   }
   return why;
 }

@@ -10,7 +10,7 @@ namespace airlight::quality {
 struct Errors {
   AirlightError airlight{};
   SameSurfaceError same_surface{};  ///< the airlight's
-  SurfaceError surface{};           ///< over the surfaces of all lights
+  SurfaceError surface{};           ///< summed over the lights that were not skipped
 };
 
 Errors judge(const frame::FrameImages& images, const Truth& truth);

@@ -26,13 +26,32 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
-/// Looks at what an airlight method left behind.
+/// The median time of each stage.
+/// @param of_frame the times of a frame's stages, by name
+template <typename Frames, typename Stages>
+std::map<std::string, double> median_stages(const Frames& frames, const Stages& of_frame) {
+  // What is made once for a scene is a stage of one frame alone.
+  std::map<std::string, std::vector<double>> times;
+  for (const auto& frame : frames)
+    for (const auto& [stage, ms] : of_frame(frame)) times[stage].push_back(ms);
+  std::map<std::string, double> medians;
+  for (const auto& [stage, times_of_stage] : times) medians[stage] = median(times_of_stage);
+  return medians;
+}
+
+/// Looks at what an airlight method left behind of each light.
 class DebugProbe : public frame::Airlight {
  public:
   explicit DebugProbe(frame::Airlight& airlight) : airlight_(airlight) {}
   void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override {
     airlight_.integrate(inputs, radiance);
-    if (inputs.light_index == 0) images_ = airlight_.debug_images(inputs);
+    for (frame::DebugImage& image : airlight_.debug_images(inputs)) {
+      if (inputs.view.lights.size() > 1) {
+        image.name += fmt::format("_{}", inputs.light_index);
+        image.caption += fmt::format(", of light '{}'", inputs.light().name);
+      }
+      images_.push_back(std::move(image));
+    }
   }
   std::vector<frame::DebugImage> take_images() { return std::move(images_); }
 
@@ -76,7 +95,8 @@ frame::FrameImages Measurer::render(const VolumeChoice& volume, const SurfaceCho
 
 struct Measurer::TimedFrame {
   double ms;
-  std::map<std::string, double> stages_ms;  ///< empty unless timed
+  std::map<std::string, double> stages_ms;                     ///< empty unless timed
+  std::vector<std::map<std::string, double>> light_stages_ms;  ///< the same, for each light
   SharedReference::Work work;
 };
 
@@ -88,13 +108,18 @@ Measurer::TimedFrame Measurer::render_timed(frame::SurfaceShadow& shadow, frame:
   const Clock::time_point start = Clock::now();
   frame_.render(view_, shadow, airlight, timer);
   context_.finish();
-  TimedFrame timed{milliseconds_since(start), timer.milliseconds(), reference_.take_work()};
+  TimedFrame timed{milliseconds_since(start), timer.milliseconds(), {}, reference_.take_work()};
+  for (std::size_t light = 0; light < view_.lights.size(); ++light)
+    timed.light_stages_ms.push_back(timer.milliseconds(light));
   // An image that was kept costs what it cost when it was traced.
-  timed.ms += timed.work.kept_airlight_ms + timed.work.kept_surface_ms;
-  if (with_stages && timed.work.kept_airlight_ms > 0.0)
-    timed.stages_ms["integrate"] += timed.work.kept_airlight_ms;
-  if (with_stages && timed.work.kept_surface_ms > 0.0)
-    timed.stages_ms["surface_query"] += timed.work.kept_surface_ms;
+  for (const auto& [light, kept] : timed.work.kept) {
+    timed.ms += kept.airlight_ms + kept.surface_ms;
+    if (!with_stages) continue;
+    for (auto* stages : {&timed.stages_ms, &timed.light_stages_ms[light]}) {
+      if (kept.airlight_ms > 0.0) (*stages)["integrate"] += kept.airlight_ms;
+      if (kept.surface_ms > 0.0) (*stages)["surface_query"] += kept.surface_ms;
+    }
+  }
   return timed;
 }
 
@@ -125,11 +150,14 @@ Measurer::Measurement Measurer::measure(const VolumeChoice& volume, const Surfac
 
   Measurement measurement;
   Cost& cost = measurement.cost;
-  // What is made once for a scene is a stage of one frame alone.
-  std::map<std::string, std::vector<double>> stage_times;
-  for (const TimedFrame& timed : staged)
-    for (const auto& [stage, ms] : timed.stages_ms) stage_times[stage].push_back(ms);
-  for (const auto& [stage, times_of_stage] : stage_times) cost.stages_ms[stage] = median(times_of_stage);
+  measurement.images = frame_.read();
+  cost.stages_ms = median_stages(
+      staged, [](const TimedFrame& timed) -> const auto& { return timed.stages_ms; });
+  for (std::size_t light = 0; light < view_.lights.size(); ++light)
+    cost.lights.push_back(
+        {measurement.images.is_skipped[light],
+         median_stages(
+             staged, [&](const TimedFrame& timed) -> const auto& { return timed.light_stages_ms[light]; })});
   cost.frame_ms = median(times);
   cost.frames = static_cast<int>(times.size());
   cost.rays = staged[0].work.airlight_rays;
@@ -138,7 +166,6 @@ Measurer::Measurement Measurer::measure(const VolumeChoice& volume, const Surfac
   cost.bytes = frame_.bytes();
   for (const auto& [name, bytes] : airlight->bytes()) cost.bytes[name] += bytes;
   for (const auto& [name, bytes] : shadow->bytes()) cost.bytes[name] += bytes;
-  measurement.images = frame_.read();
   return measurement;
 }
 

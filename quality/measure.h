@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "frame/frame.h"
 #include "quality/methods.h"
@@ -11,7 +14,17 @@ namespace airlight::quality {
 
 /// What a frame by a pair of methods costs. See docs/results.schema.json for the unit of each.
 struct Cost {
-  std::map<std::string, double> stages_ms;
+  /// Of one light.
+  struct OfLight {
+    bool is_skipped = false;  ///< it cannot reach the view
+    std::map<std::string, double> stages_ms;
+  };
+  std::map<std::string, double> stages_ms;  ///< of all lights, and what is no light's
+  std::vector<OfLight> lights;
+
+  std::ptrdiff_t skipped_lights() const {
+    return std::count_if(lights.begin(), lights.end(), [](const OfLight& light) { return light.is_skipped; });
+  }
   double frame_ms = 0.0;
   int frames = 0;
   std::map<std::string, std::int64_t> bytes;

@@ -3,10 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 namespace airlight::quality {
 
+std::string skipped_lights(const frame::FrameImages& images) {
+  std::string names;
+  for (std::size_t i = 0; i < images.lights.size(); ++i)
+    if (images.is_skipped[i]) names += (names.empty() ? "" : ", ") + images.lights[i];
+  return names;
+}
+
 void write_frame(const std::filesystem::path& file, const frame::FrameImages& images,
-                 const std::map<std::string, std::string>& metadata) {
+                 std::map<std::string, std::string> metadata) {
+  if (const std::string skipped = skipped_lights(images); !skipped.empty())
+    metadata["airlight.skipped-lights"] = skipped;
   ImageView view{.size = images.size, .channels = {}, .metadata = metadata};
   const auto add = [&](const std::string& prefix, const std::vector<glm::vec3>& values) {
     for (int channel = 0; channel < 3; ++channel)
@@ -15,6 +26,10 @@ void write_frame(const std::filesystem::path& file, const frame::FrameImages& im
   add("", images.radiance);
   add("airlight.", images.airlight);
   view.channels["distance.Y"] = {images.distance.data(), 1};
+  for (std::size_t light = 0; light < images.airlight_of_light.size(); ++light) {
+    add(fmt::format("airlight.{}.", images.lights[light]), images.airlight_of_light[light]);
+    view.channels[fmt::format("surface.{}.Y", images.lights[light])] = {images.visibility[light].data(), 1};
+  }
   std::vector<float> mean;
   if (images.visibility.size() > 1) {
     mean.resize(images.distance.size());

@@ -10,11 +10,15 @@
 
 namespace airlight::quality {
 
+/// The names of the lights that a frame left out; empty for none.
+std::string skipped_lights(const frame::FrameImages& images);
+
 /// Writes a frame as an EXR image with the channels R,G,B; airlight.R,G,B; surface.Y, the mean over lights;
-/// distance.Y.
+/// distance.Y. Where there are several lights, each has its airlight.NAME.R,G,B and surface.NAME.Y, too;
+/// those skipped are named in the metadata.
 /// @throws as write_exr
 void write_frame(const std::filesystem::path& file, const frame::FrameImages& images,
-                 const std::map<std::string, std::string>& metadata);
+                 std::map<std::string, std::string> metadata);
 
 /// The exposure that maps the 95th percentile of the pixels' largest channel to 0.8; where that is black, the
 /// largest value; 1 for a black image.

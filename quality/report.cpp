@@ -60,7 +60,7 @@ h1 { font-size: 1.6em; } h2 { font-size: 1.2em; margin-top: 2em; } h3 { font-siz
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; }
 th, td { padding: .25em .8em; border-bottom: 1px solid #ddd; text-align: right; white-space: nowrap; }
-th.name, td:nth-child(1), td:nth-child(2) { text-align: left; }
+th.name, td:nth-child(1), td:nth-child(2), .stages td:nth-child(3) { text-align: left; }
 thead th { border-bottom: 2px solid #888; }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: .2em 1em; } dt { font-weight: 600; } dd { margin: 0; }
 .run { border-top: 1px solid #ddd; padding: 1.2em 0; }
@@ -93,7 +93,9 @@ light, and shadow, where there is none.</dd>
 <dt>wrong pixels</dt><dd>Surface shadow: pixels lit in one image and dark in the other, of those where both see a surface, against one
 shadow ray a pixel.</dd>
 <dt>memory [MiB]</dt><dd>GPU memory of scene, shadow map and method.</dd>
-<dt>stages [ms]</dt><dd>Medians over frames in which the GPU is finished around each stage; their sum can exceed the frame time.</dd>
+<dt>stages [ms]</dt><dd>Medians over frames in which the GPU is finished around each stage; their sum can exceed the frame time.
+A light is skipped where it cannot reach the view: nothing that the image shows is in its cone or range, or the medium lets
+through less than single precision holds.</dd>
 </dl>
 )";
 
@@ -120,18 +122,17 @@ std::string results_rows(const Comparison& comparison) {
 }
 
 std::string stages_table(const Comparison& comparison) {
-  std::set<std::string> stages;
-  for (const Run& run : comparison.runs) {
-    for (const auto& entry : run.cost.stages_ms) stages.insert(entry.first);
-  }
-  std::string html = "<table><thead><tr><th class=\"name\">volume</th><th class=\"name\">surface</th>";
+  const std::set<std::string> stages = stages_of(comparison);
+  std::string html =
+      "<table class=\"stages\"><thead><tr><th class=\"name\">volume</th><th class=\"name\">surface</th>"
+      "<th class=\"name\">light</th>";
   for (const std::string& stage : stages) html += "<th>" + escape(stage) + "</th>";
   html += "</tr></thead><tbody>\n";
-  for (const Run& run : comparison.runs) {
-    html += "<tr>" + cell(run.volume) + cell(run.surface);
+  for (const StagesRow& row : stages_rows(comparison)) {
+    html += "<tr>" + cell(row.run.volume) + cell(row.run.surface) + cell(row.light);
     for (const std::string& stage : stages) {
-      const auto found = run.cost.stages_ms.find(stage);
-      html += cell(found == run.cost.stages_ms.end() ? "–" : fmt::format("{:.2f}", found->second));
+      const auto found = row.stages_ms.find(stage);
+      html += cell(found == row.stages_ms.end() ? "–" : fmt::format("{:.2f}", found->second));
     }
     html += "</tr>\n";
   }
@@ -165,7 +166,7 @@ std::string run_section(const Run& run) {
 
 /// The fields of a part of the view.
 template <typename Thing>
-std::string definition(const char* term, const Thing& thing) {
+std::string definition(const std::string& term, const Thing& thing) {
   std::string text;
   scene::for_each_value(thing, [&](const scene::FieldInfo& field, const scene::FieldValue& value) {
     text += fmt::format("{}{} {}{}{}", text.empty() ? "" : ", ", field.label, scene::text_of(value),
@@ -180,7 +181,8 @@ std::string report_html(const Comparison& comparison) {
   const TruthFigures& truth = comparison.truth;
   const scene::View& view = comparison.view;
   std::string fields = definition("image", view) + definition("camera", view.camera);
-  for (const scene::Light& light : view.lights) fields += definition("light", light);
+  for (const scene::Light& light : view.lights)
+    fields += definition(view.lights.size() > 1 ? "light " + escape(light.name) : "light", light);
   fields += definition("medium", view.medium);
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<title>Airlight: "

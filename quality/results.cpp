@@ -36,7 +36,14 @@ struct JsonOfField {
 };
 
 Json view_json(const scene::View& view) {
-  Json json = {{"camera", {{"name", view.camera.name}}}, {"light", {{"name", view.lights[0].name}}}};
+  Json json = {{"camera", {{"name", view.camera.name}}}};
+  for (const scene::Light& light : view.lights) {
+    Json of_light = {{"name", light.name}};
+    for_each_value(light, [&](const scene::FieldInfo& field, const scene::FieldValue& value) {
+      of_light[field.key()] = std::visit(JsonOfField(), value);
+    });
+    json["lights"].push_back(of_light);
+  }
   for_each_value_of_view(
       view, [&](std::string_view part, const scene::FieldInfo& field, const scene::FieldValue& value) {
         (part.empty() ? json : json[part])[field.key()] = std::visit(JsonOfField(), value);
@@ -52,7 +59,18 @@ Json settings_json(const std::map<std::string, frame::OptionValue>& settings) {
   return json;
 }
 
-Json run_json(const Run& run) {
+/// What each of the view's lights cost.
+Json lights_json(const Run& run, const scene::View& view) {
+  Json json = Json::array();
+  for (std::size_t i = 0; i < run.cost.lights.size(); ++i) {
+    const Cost::OfLight& light = run.cost.lights[i];
+    json.push_back(
+        {{"name", view.lights[i].name}, {"skipped", light.is_skipped}, {"stages_ms", light.stages_ms}});
+  }
+  return json;
+}
+
+Json run_json(const Run& run, const scene::View& view) {
   const AirlightError& error = run.errors.airlight;
   Json json = {
       {"volume", run.volume},
@@ -62,6 +80,8 @@ Json run_json(const Run& run) {
       {"surface_settings", settings_json(run.surface_settings)},
       {"command", run.command},
       {"stages_ms", run.cost.stages_ms},
+      {"lights", lights_json(run, view)},
+      {"skipped_lights", run.cost.skipped_lights()},
       {"frame_ms", run.cost.frame_ms},
       {"frames", run.cost.frames},
       {"bytes", run.cost.bytes},
@@ -129,7 +149,34 @@ std::map<std::string, std::string> view_options(const scene::View& view) {
       view, [&](std::string_view, const scene::FieldInfo& field, const scene::FieldValue& value) {
         options.emplace(field.name, scene::text_of(value));
       });
+  for (const scene::Light& light : view.lights) {
+    const std::string prefix = view.lights.size() > 1 ? fmt::format("light.{}.", light.name) : "";
+    for_each_value(light, [&](const scene::FieldInfo& field, const scene::FieldValue& value) {
+      options.emplace(fmt::format("{}{}", prefix, field.name), scene::text_of(value));
+    });
+  }
   return options;
+}
+
+std::set<std::string> stages_of(const Comparison& comparison) {
+  std::set<std::string> stages;
+  for (const Run& run : comparison.runs)
+    for (const auto& [stage, ms] : run.cost.stages_ms) stages.insert(stage);
+  return stages;
+}
+
+std::vector<StagesRow> stages_rows(const Comparison& comparison) {
+  std::vector<StagesRow> rows;
+  for (const Run& run : comparison.runs) {
+    rows.push_back({run, "all", run.cost.stages_ms});
+    if (comparison.view.lights.size() == 1) continue;
+    for (std::size_t i = 0; i < run.cost.lights.size(); ++i) {
+      const Cost::OfLight& light = run.cost.lights[i];
+      rows.push_back(
+          {run, comparison.view.lights[i].name + (light.is_skipped ? " (skipped)" : ""), light.stages_ms});
+    }
+  }
+  return rows;
 }
 
 std::string dark_text(const TruthFigures& truth) {
@@ -149,7 +196,7 @@ std::string error_text(double rrmse, double bound) {
 
 std::string results_json(const Comparison& comparison) {
   Json runs = Json::array();
-  for (const Run& run : comparison.runs) runs.push_back(run_json(run));
+  for (const Run& run : comparison.runs) runs.push_back(run_json(run, comparison.view));
   const Json json = {
       {"airlight", version()},
       {"scene",
@@ -207,21 +254,18 @@ std::string results_table(const Comparison& comparison) {
   text += layout(rows, 2);
 
   // Where the time of each goes.
-  std::set<std::string> stages;
-  for (const Run& run : comparison.runs) {
-    for (const auto& [stage, ms] : run.cost.stages_ms) stages.insert(stage);
-  }
-  rows.assign(1, std::vector<std::string>{"volume", "surface"});
+  const std::set<std::string> stages = stages_of(comparison);
+  rows.assign(1, std::vector<std::string>{"volume", "surface", "light"});
   for (const std::string& stage : stages) rows[0].push_back(stage + " ms");
-  for (const Run& run : comparison.runs) {
-    rows.push_back({run.volume, run.surface});
+  for (const StagesRow& row : stages_rows(comparison)) {
+    rows.push_back({row.run.volume, row.run.surface, row.light});
     for (const std::string& stage : stages) {
-      const auto found = run.cost.stages_ms.find(stage);
-      rows.back().push_back(found == run.cost.stages_ms.end() ? "-" : fmt::format("{:.2f}", found->second));
+      const auto found = row.stages_ms.find(stage);
+      rows.back().push_back(found == row.stages_ms.end() ? "-" : fmt::format("{:.2f}", found->second));
     }
   }
   text += '\n';
-  text += layout(rows, 2);
+  text += layout(rows, 3);
 
   const std::size_t pixels = comparison.runs.empty() ? 0 : comparison.runs[0].errors.surface.pixels;
   text += fmt::format(

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,19 @@ std::string results_json(const Comparison& comparison);
 /// The comparison as a table for a terminal, each figure with its unit and what it was compared with.
 std::string results_table(const Comparison& comparison);
 
+/// The names of all stages of all runs.
+std::set<std::string> stages_of(const Comparison& comparison);
+
+/// A row of the table of stages.
+struct StagesRow {
+  const Run& run;
+  std::string light;  ///< its name; "all" for all lights, and what is no light's
+  const std::map<std::string, double>& stages_ms;
+};
+
+/// Each run's, followed, where there are several lights, by one for each.
+std::vector<StagesRow> stages_rows(const Comparison& comparison);
+
 /// Says that the truth is dark, and what that means.
 std::string dark_text(const TruthFigures& truth);
 
@@ -72,7 +86,8 @@ std::string dark_text(const TruthFigures& truth);
 /// dark truth "dark".
 std::string error_text(double rrmse, double bound);
 
-/// Every choice of a view under the name of the option that makes it.
+/// Every choice of a view under the name of the option that makes it; of several lights, under
+/// light.NAME.OPTION.
 std::map<std::string, std::string> view_options(const scene::View& view);
 
 /// Words fit for a shell, quoted where they need it.

@@ -61,6 +61,7 @@ class TracedAirlight : public frame::Airlight, public Traced {
     inputs.timer.time("integrate",
                       [&] { upload(options_.trace(*shared_, inputs.light_index).radiance, radiance); });
   }
+  bool sees_every_light() const override { return true; }
 
  private:
   Options options_;
@@ -82,6 +83,7 @@ class TracedShadow : public frame::SurfaceShadow, public Traced {
     inputs.timer.time("surface_query",
                       [&] { visibility.write(shared_->surfaces(inputs.light_index).visibility.data()); });
   }
+  bool sees_every_light() const override { return true; }
 
  private:
   SharedReference* shared_ = nullptr;
@@ -191,7 +193,7 @@ bool SharedReference::load_exact(std::size_t light, int refinement) {
 const reference::SurfaceImage& SharedReference::surfaces(std::size_t light) {
   OfLight& of_light = lights_[light];
   if (load_surfaces(light)) {
-    work_.kept_surface_ms += of_light.surfaces_ms;
+    work_.kept[light].surface_ms += of_light.surfaces_ms;
     return *of_light.surfaces;
   }
   const reference::Reference& reference = rays(light);
@@ -218,7 +220,7 @@ const reference::AirlightImage& SharedReference::exact(std::size_t light, int re
   }
   const reference::AirlightImage& image = of_light.exact.at(refinement);
   count(image);
-  if (is_kept) work_.kept_airlight_ms += image.ms;
+  if (is_kept) work_.kept[light].airlight_ms += image.ms;
   return image;
 }
 

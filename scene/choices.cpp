@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <optional>
+#include <set>
 #include <vector>
 
 #include <fmt/format.h>
@@ -11,23 +13,30 @@
 namespace airlight::scene {
 namespace {
 
-/// Puts the thing of that name or number first. @throws the choices' error, which names the others
+constexpr std::string_view k_all_lights = "all";
+
 template <typename Thing>
-void put_first(const Choices& choices, const FieldInfo& choice, std::vector<Thing>& things) {
+std::string list(const std::vector<Thing>& things) {
+  std::string text;
+  for (std::size_t i = 0; i < things.size(); ++i)
+    text += fmt::format("{}'{}' ({})", i == 0 ? "" : ", ", printable(things[i].name), i);
+  return text;
+}
+
+/// The place of the thing of that name or number. @throws the choices' error, which names the others
+template <typename Thing>
+std::size_t find(const Choices& choices, const FieldInfo& choice, const std::vector<Thing>& things) {
   const auto& name = std::get<std::string>(*choices.get(choice));
-  auto found =
-      std::find_if(things.begin(), things.end(), [&](const Thing& thing) { return thing.name == name; });
-  // A name is preferred to a number, which is written as it is listed here.
-  std::string list;
+  std::optional<std::size_t> of_number;
   for (std::size_t i = 0; i < things.size(); ++i) {
-    list += fmt::format("{}'{}' ({})", i == 0 ? "" : ", ", printable(things[i].name), i);
-    if (found == things.end() && fmt::format("{}", i) == name)
-      found = things.begin() + static_cast<std::ptrdiff_t>(i);
+    if (things[i].name == name) return i;
+    // A name is preferred to a number, which is written as it is listed.
+    if (fmt::format("{}", i) == name) of_number = i;
   }
-  if (found == things.end())
+  if (!of_number)
     throw choices.error(choice, fmt::format("the scene has no '{}'", printable(name)),
-                        list.empty() ? "it has none" : "it has " + list);
-  std::rotate(things.begin(), found, found + 1);
+                        things.empty() ? "it has none" : "it has " + list(things));
+  return *of_number;
 }
 
 void choose_camera(const Choices& choices, std::vector<Camera>& cameras, const Geometry& geometry) {
@@ -39,7 +48,9 @@ void choose_camera(const Choices& choices, std::vector<Camera>& cameras, const G
   const std::string both = fmt::format("{} and {}", choices.spell(eye), choices.spell(target));
   if (choices.get(camera_choice())) {
     if (has_eye) throw choices.error(camera_choice(), both + " contradict it", "give one or the other");
-    put_first(choices, camera_choice(), cameras);
+    const auto chosen =
+        cameras.begin() + static_cast<std::ptrdiff_t>(find(choices, camera_choice(), cameras));
+    std::rotate(cameras.begin(), chosen, chosen + 1);
   } else if (has_eye) {
     cameras.insert(cameras.begin(), Camera{.name = "of " + both});
   } else if (cameras.empty()) {
@@ -55,7 +66,22 @@ const FieldInfo* first_given(const Choices& choices, std::initializer_list<const
   return found == infos.end() ? nullptr : *found;
 }
 
-void choose_light(const Choices& choices, std::vector<Light>& lights) {
+/// Gives each light a name that no other has: a number to those without one, another to those whose name is
+/// taken.
+void name_lights(std::vector<Light>& lights) {
+  std::set<std::string> taken;
+  const auto name = [&](Light& light, const std::string& before, std::size_t number) {
+    while (!taken.insert(light.name).second) light.name = fmt::format("{}{}", before, number++);
+  };
+  for (Light& light : lights)
+    if (!light.name.empty()) name(light, light.name + "_", 2);
+  taken.insert("");
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    if (lights[i].name.empty()) name(lights[i], "light", i);
+}
+
+/// The lights that one light's choices make: a new one, or some of those that the scene brings.
+std::vector<Light> choose_light(const Choices& choices, const std::vector<Light>& brought) {
   const FieldInfo &position = field<Light>("light-position"), &intensity = field<Light>("intensity"),
                   &texture = field<Light>("light-texture"), &sun = field<Light>("sun"),
                   &irradiance = field<Light>("irradiance");
@@ -68,25 +94,58 @@ void choose_light(const Choices& choices, std::vector<Light>& lights) {
   if (choices.get(sun) && choices.get(sun_angles())) throw contradiction(sun, sun_angles());
   const FieldInfo* place = first_given(choices, {&position, &sun, &sun_angles()});
 
-  if (choices.get(light_choice())) {
+  std::vector<Light> chosen;
+  if (const FieldValue* choice = choices.get(light_choice())) {
     if (place) throw contradiction(light_choice(), *place);
-    put_first(choices, light_choice(), lights);
+    if (std::get<std::string>(*choice) == k_all_lights && !brought.empty())
+      chosen = brought;
+    else
+      chosen = {brought[find(choices, light_choice(), brought)]};
   } else if (place) {
     const FieldInfo& power = of_sun ? irradiance : intensity;
     if (!choices.get(power)) throw choices.error(*place, "it needs " + choices.spell(power), "give both");
-    lights.insert(lights.begin(), Light{.name = "of " + choices.spell(*place),
-                                        .kind = of_sun ? LightKind::sun : LightKind::point});
-  } else if (lights.empty()) {
-    if (const FieldInfo* given = of_lamp ? of_lamp : of_sun)
+    chosen = {Light{.name = {}, .kind = of_sun ? LightKind::sun : LightKind::point}};
+  } else {
+    const auto all = every_field();
+    const auto first =
+        std::find_if(all.begin(), all.end(), [&](const FieldInfo* info) { return choices.get(*info); });
+    const FieldInfo& given = first == all.end() ? light_choice() : **first;
+    if (brought.empty())
       throw choices.error(
-          *given, "the scene has no light",
+          given, "the scene has no light",
           fmt::format("place one by {} and {}, or by {} and {}", choices.spell(position),
                       choices.spell(intensity), choices.spell(sun), choices.spell(irradiance)));
-    return;
+    if (brought.size() > 1)
+      throw choices.error(given, fmt::format("the scene has {}", list(brought)),
+                          fmt::format("say which one is meant by {}", choices.spell(light_choice())));
+    chosen = brought;
   }
-  choose(choices, lights[0]);
-  if (const FieldValue* angles = choices.get(sun_angles()))
-    lights[0].towards = direction_of_angles(std::get<glm::dvec2>(*angles));
+  for (Light& light : chosen) {
+    choose(choices, light);
+    if (const FieldValue* angles = choices.get(sun_angles()))
+      light.towards = direction_of_angles(std::get<glm::dvec2>(*angles));
+  }
+  return chosen;
+}
+
+void choose_lights(std::span<const std::unique_ptr<const Choices>> choices, std::vector<Light>& lights) {
+  name_lights(lights);
+  if (choices.empty()) return;
+  std::vector<Light> chosen;
+  for (const auto& of_light : choices) {
+    for (Light& light : choose_light(*of_light, lights)) {
+      const bool is_there =
+          !light.name.empty() && std::any_of(chosen.begin(), chosen.end(),
+                                             [&](const Light& other) { return other.name == light.name; });
+      if (is_there)
+        throw of_light->error(light_choice(),
+                              fmt::format("the light '{}' is chosen twice", printable(light.name)),
+                              "choose it once");
+      chosen.push_back(std::move(light));
+    }
+  }
+  lights = std::move(chosen);
+  name_lights(lights);
 }
 
 }  // namespace
@@ -101,9 +160,19 @@ const FieldValue* Choices::get(const FieldInfo& field) const {
   return found == values_.end() ? nullptr : &found->second;
 }
 
-void choose_all(const Choices& choices, Scene& scene) {
+bool is_of_light(const FieldInfo& field) {
+  return field.group == light_choice().group || field.group == sun_angles().group;
+}
+
+bool names_light(const FieldInfo& field) {
+  return field.name == light_choice().name || field.name == "light-position" || field.name == "sun" ||
+         field.name == sun_angles().name;
+}
+
+void choose_all(const Choices& choices, std::span<const std::unique_ptr<const Choices>> lights,
+                Scene& scene) {
   choose_camera(choices, scene.cameras, scene.geometry);
-  choose_light(choices, scene.lights);
+  choose_lights(lights, scene.lights);
   choose(choices, scene.medium);
   choose(choices, scene);
 }

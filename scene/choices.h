@@ -1,6 +1,8 @@
 #pragma once
 
 #include <map>
+#include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -9,7 +11,8 @@
 
 namespace airlight::scene {
 
-/// The values that a command line or a shot gives to fields, and how each speaks of its fields.
+/// The values that a command line or a shot gives to fields, of one light's or of all that is no light's, and
+/// how each speaks of its fields.
 class Choices {
  public:
   virtual ~Choices() = default;
@@ -19,6 +22,8 @@ class Choices {
 
   /// nullptr for none
   const FieldValue* get(const FieldInfo& field) const;
+
+  bool is_empty() const { return values_.empty(); }
 
   /// The field as its user writes it.
   virtual std::string spell(const FieldInfo& field) const = 0;
@@ -41,9 +46,19 @@ void choose(const Choices& choices, Thing& thing) {
   }
 }
 
-/// Makes the scene's first camera, its first light, its medium and its own fields those chosen. Afterwards it
-/// has a camera; a light, where it brings one or one was given.
+/// Whether it is a field of a light, or chooses one.
+bool is_of_light(const FieldInfo& field);
+
+/// Whether it says which light is meant: one of the scene's, or a new one by where it stands.
+bool names_light(const FieldInfo& field);
+
+/// Makes the scene's first camera, its lights, its medium and its own fields those chosen. Afterwards it has
+/// a camera; its lights are those chosen or, where none is, those that it brings, and each has a name of its
+/// own.
+/// @param choices of all that is no light's
+/// @param lights the choices of each light. Where there is one alone that does not say which light it means,
+/// it means the scene's only one
 /// @throws the choices' error where they contradict one another or the scene
-void choose_all(const Choices& choices, Scene& scene);
+void choose_all(const Choices& choices, std::span<const std::unique_ptr<const Choices>> lights, Scene& scene);
 
 }  // namespace airlight::scene

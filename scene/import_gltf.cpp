@@ -449,7 +449,7 @@ class Importer {
                              std::size_t number) {
     return !own.empty()    ? printable(own)
            : !node.empty() ? printable(node)
-                           : fmt::format("{} {}", kind, number);
+                           : fmt::format("{}{}", kind, number);
   }
 
   void add_camera(const tinygltf::Node& node, const glm::dmat4& world_from_node, const std::string& where) {

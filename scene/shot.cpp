@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -87,6 +88,17 @@ class Table {
     return {file_, node ? *node->as_table() : k_empty, std::string(key)};
   }
 
+  /// The tables of an array, each begun by [[key]]; none where there is none, or one table alone.
+  std::vector<Table> tables(std::string_view key) {
+    const toml::node* node = find(key);
+    const toml::array* array = node ? node->as_array() : nullptr;
+    std::vector<Table> tables;
+    if (!array || array->empty() || !array->is_homogeneous(toml::node_type::table)) return tables;
+    for (const toml::node& element : *array)
+      tables.emplace_back(file_, *element.as_table(), std::string(key));
+    return tables;
+  }
+
   void refuse_others() const {
     for (const auto& [key, value] : table_) {
       if (known_.contains(key.str())) continue;
@@ -137,50 +149,74 @@ class Table {
   std::set<std::string, std::less<>> known_;
 };
 
-/// The choices of a shot, all of which are read before its scene is.
+/// The choices of a shot, or of one of its lights, all of which are read before its scene is.
 class ShotChoices : public Choices {
  public:
-  ShotChoices(const std::filesystem::path& file, const toml::table& content,
-              const LightTextureReader& reader) {
-    tables_.emplace("", Table(file, content, ""));
+  using Tables = std::map<std::string_view, std::shared_ptr<Table>>;
+
+  /// @param tables where the fields of each group stand; those of other groups are not its own
+  ShotChoices(Tables tables, const LightTextureReader& reader) : tables_(std::move(tables)) {
     for (const FieldInfo* field : every_field()) {
       if (field->kind == FieldKind::size) continue;  // the image's, which a shot leaves open
-      if (!tables_.contains(field->group)) tables_.emplace(field->group, root().table(field->group));
-      if (auto value = table_of(*field).value(*field, reader)) add(*field, std::move(*value));
+      const auto table = tables_.find(field->group);
+      if (table == tables_.end()) continue;
+      if (auto value = table->second->value(*field, reader)) add(*field, std::move(*value));
     }
-    if (root().has("light") && root().has("sun"))
-      throw root().error("sun", "[light] contradicts it", "give one or the other");
   }
-
-  Table& root() { return tables_.at(""); }
 
   /// Refuses keys that nobody asked for.
   void refuse_others() const {
-    for (const auto& [name, table] : tables_) table.refuse_others();
+    for (const auto& [name, table] : tables_) table->refuse_others();
   }
 
   std::string spell(const FieldInfo& field) const override { return field.key(); }
   Error error(const FieldInfo& field, const std::string& problem, const std::string& remedy) const override {
-    return tables_.at(field.group).error(field.key(), problem, remedy);
+    return tables_.at(field.group)->error(field.key(), problem, remedy);
   }
 
  private:
-  Table& table_of(const FieldInfo& field) { return tables_.at(field.group); }
+  Tables tables_;
+};
 
-  std::map<std::string_view, Table> tables_;
+/// A whole shot's.
+struct Shot {
+  std::shared_ptr<Table> root;
+  std::unique_ptr<const ShotChoices> choices;
+  std::vector<std::unique_ptr<const Choices>> lights;
+
+  Shot(const std::filesystem::path& file, const toml::table& content, const LightTextureReader& reader)
+      : root(std::make_shared<Table>(file, content, "")) {
+    const auto table = [&](std::string_view key) { return std::make_shared<Table>(root->table(key)); };
+    const auto add_light = [&](const std::shared_ptr<Table>& of_lamp, const std::shared_ptr<Table>& of_sun) {
+      auto light =
+          std::make_unique<ShotChoices>(ShotChoices::Tables{{"light", of_lamp}, {"sun", of_sun}}, reader);
+      light->refuse_others();
+      if (!light->is_empty()) lights.push_back(std::move(light));
+    };
+    choices = std::make_unique<ShotChoices>(
+        ShotChoices::Tables{{"", root}, {"camera", table("camera")}, {"medium", table("medium")}}, reader);
+    if (root->has("light") && root->has("sun"))
+      throw root->error("sun", "[light] contradicts it", "give one or the other, or [[light]] for several");
+    const std::vector<Table> several = root->tables("light");
+    if (several.empty()) add_light(table("light"), table("sun"));
+    for (const Table& one : several) {
+      const auto shared = std::make_shared<Table>(one);
+      add_light(shared, shared);
+    }
+  }
 };
 
 /// The scene that the shot shows, as it comes.
-Scene load_subject(const std::filesystem::path& file, ShotChoices& choices,
+Scene load_subject(const std::filesystem::path& file, const Shot& whole,
                    std::optional<std::size_t> triangles) {
-  Table& shot = choices.root();
+  Table& shot = *whole.root;
   const auto name = shot.text("scene");
   const auto own_triangles = shot.count("triangles");
   if (!name) throw file_error(file, "", "it names no scene", "begin it with scene = \"NAME\"");
   if (name->find('\0') != name->npos) throw shot.error("scene", "it is no name of a file");
 
   // Said before a long model is read.
-  choices.refuse_others();
+  whole.choices->refuse_others();
   const BuiltinScene* builtin = find_builtin(*name);
   if (triangles) {
     const std::string problem = count_problem(builtin, *name, *triangles);
@@ -209,14 +245,14 @@ Scene load_shot(const std::filesystem::path& file, std::optional<std::size_t> tr
     throw file_error(file, line_of(error.source()), printable(error.description()));
   }
 
-  ShotChoices choices(file, root, read_light_texture);
-  Scene scene = load_subject(file, choices, triangles);
-  choose_all(choices, scene);
+  const Shot shot(file, root, read_light_texture);
+  Scene scene = load_subject(file, shot, triangles);
+  choose_all(*shot.choices, shot.lights, scene);
   try {
     if (scene.lights.empty())
       camera_frame(scene.cameras[0], {1, 1});
     else
-      validate({scene.cameras[0], {scene.lights[0]}, scene.medium, {1, 1}});
+      validate({scene.cameras[0], scene.lights, scene.medium, {1, 1}});
   } catch (const Error& error) {
     throw file_error(file, "", error.what());
   }

@@ -28,6 +28,7 @@ namespace airlight::scene {
 ///     towards = [0.8, 0.5, 0.3]  # its direction, of any length; or:
 ///     angles = [70, 30]          # azimuth from +Z towards +X, elevation above the horizon [degrees]
 ///     irradiance = [3, 2.4, 1.6] # on a surface that faces it [W/m²]
+///     [[light]]                  # instead of both, once for each of several lights, with either's keys
 ///     [medium]
 ///     sigma_s = 0.25             # [1/m]
 ///     sigma_a = 0.0
@@ -37,10 +38,11 @@ namespace airlight::scene {
 ///     fog_top = 16               # the medium fills what lies below [m]
 ///
 /// Everything but `scene` may be left out. Keys mean what the command line's options of these names mean; a
-/// camera or a light without a name of its own is named by its number from 0, as in name = "0".
+/// camera or a light without a name of its own is named by its number from 0, as in name = "0". Lights stand
+/// in for the scene's; without a name or a place, a light's keys change the scene's only one.
 /// @param triangles asked for in place of the shot's own
 /// @param read_light_texture without it, a shot that names a texture is refused
-/// @returns the scene; its first camera and light, its medium and its exposure are the shot's
+/// @returns the scene; its first camera, its lights, its medium and its exposure are the shot's
 /// @throws Error (bad_file) with file and line, also for what `import_scene` refuses and for a view that
 /// `validate` refuses; (usage) where `triangles` cannot be
 Scene load_shot(const std::filesystem::path& file, std::optional<std::size_t> triangles = {},

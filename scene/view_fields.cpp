@@ -257,9 +257,19 @@ const FieldInfo& camera_choice() {
 }
 
 const FieldInfo& light_choice() {
-  static constexpr FieldInfo k_info = {
-      "light", "light", word,       "NAME|N", "", "one of the scene's lights, by name or number from 0",
-      "",      "",      "the first"};
+  static constexpr FieldInfo k_info = {"light",
+                                       "light",
+                                       word,
+                                       "NAME|N|all",
+                                       "",
+                                       "one of the scene's lights, by name or number from 0, or all of them",
+                                       "",
+                                       "as --light-position, --sun and --sun-angles, it begins a light: "
+                                       "options of lights that follow are this "
+                                       "one's, up to the next; lights given so stand in for the scene's. "
+                                       "Before all of them, they are the only "
+                                       "light's",
+                                       "all"};
   return k_info;
 }
 
@@ -302,6 +312,13 @@ std::span<const FieldInfo* const> every_field() {
     return list;
   }();
   return infos;
+}
+
+const FieldInfo* find_field(std::string_view name) {
+  const auto all = every_field();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const FieldInfo* field) { return field->name == name; });
+  return found == all.end() ? nullptr : *found;
 }
 
 std::string FieldInfo::key() const {

@@ -124,8 +124,8 @@ void for_each_value(const Thing& thing, const Visit& visit) {
     if (const auto value = field.get(thing)) visit(field, *value);
 }
 
-/// The same for a whole view: its camera, its first light, its medium and what is its own.
-/// @param visit (part, field, value); the part is "camera", "light", "medium", or empty for the view's own
+/// The same for a view, but its lights: its camera, its medium and what is its own.
+/// @param visit (part, field, value); the part is "camera", "medium", or empty for the view's own
 template <typename Visit>
 void for_each_value_of_view(const View& view, const Visit& visit) {
   const auto visit_part = [&](std::string_view part, const auto& thing) {
@@ -133,7 +133,6 @@ void for_each_value_of_view(const View& view, const Visit& visit) {
                    [&](const FieldInfo& field, const FieldValue& value) { visit(part, field, value); });
   };
   visit_part("camera", view.camera);
-  visit_part("light", view.lights[0]);
   visit_part("medium", view.medium);
   visit_part("", view);
 }
@@ -151,6 +150,9 @@ glm::dvec3 direction_of_angles(glm::dvec2 angles);
 
 /// All of the above, in the order of the help.
 std::span<const FieldInfo* const> every_field();
+
+/// The one of that name; nullptr for none.
+const FieldInfo* find_field(std::string_view name);
 
 /// Reads the file of a light texture. The reader of images is no part of this folder: callers hand it in.
 using LightTextureReader = std::function<LightTexture(const std::filesystem::path&)>;

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <iterator>
 #include <string>
 #include <vector>
@@ -261,14 +262,19 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{{"--camera", "0", "--eye", "0,0,1", "--target", "0,0,0"}, "--camera"},
         Misuse{{"--eye", "0,0,1", "--target", "0,0,1"}, "eye and target"},
         Misuse{{"--up", "0,0,1"}, "parallel"}, Misuse{{"--light-position", "0,1,0"}, "--intensity"},
-        Misuse{{"--light", "0", "--light-position", "0,1,0", "--intensity", "1"}, "--light"},
+        Misuse{{"--light", "0", "--light", "ceiling"}, "--light: the light 'ceiling' is chosen twice"},
+        Misuse{{"--light", "all", "--light", "0"}, "--light: the light 'ceiling' is chosen twice"},
+        Misuse{{"--light", "0", "--light-position", "0,1,0"}, "--light-position: it needs --intensity"},
+        Misuse{{"--intensity", "1", "--light", "0", "--intensity", "2"}, "--intensity: it is given twice"},
+        Misuse{{"--light", "0", "--intensity", "1", "--intensity", "2"}, "--intensity: it is given twice"},
+        Misuse{{"--intensity", "1", "--light", "0", "--sun", "0,1,0", "--irradiance", "2"},
+               "--intensity: it stands before the lights, and is none's"},
         Misuse{{"--sun", "0,1,0"}, "--sun: it needs --irradiance"},
         Misuse{{"--sun-angles", "0,40"}, "--sun-angles: it needs --irradiance"},
         Misuse{{"--sun", "0,1,0", "--sun-angles", "0,40", "--irradiance", "1"},
-               "--sun: --sun-angles contradicts it"},
-        Misuse{{"--sun", "0,1,0", "--irradiance", "1", "--light", "0"}, "--light: --sun contradicts it"},
+               "--sun: it needs --irradiance"},
         Misuse{{"--sun-angles", "0,40", "--irradiance", "1", "--light-position", "0,1,0"},
-               "--light-position: --sun-angles contradicts it"},
+               "--light-position: it needs --intensity"},
         Misuse{{"--light-position", "0,1,0", "--intensity", "1", "--irradiance", "1"},
                "--light-position: --irradiance contradicts it"},
         Misuse{{"--sun", "0,1,0", "--intensity", "1"}, "--intensity: --sun contradicts it"},
@@ -547,7 +553,7 @@ TEST_F(TexturedLight, IsComparedByTheMethodsThatCanTakeIt) {
   EXPECT_EQ(results["runs"][0]["volume"], "vsv:integral=riemann");
   EXPECT_EQ(results["runs"][1]["volume"], "reference-march");
   EXPECT_LT(results["runs"][0]["error"]["airlight"]["rrmse"], 0.1);
-  EXPECT_EQ(results["view"]["light"]["texture"], "light.exr");
+  EXPECT_EQ(results["view"]["lights"][0]["texture"], "light.exr");
   EXPECT_THAT(tests::schema_violations(results, Json::parse(read_text(AIRLIGHT_SCHEMA))), IsEmpty());
   EXPECT_THAT(read_text(file("out/report.html")), HasSubstr("textured by light.exr"));
 }
@@ -695,6 +701,108 @@ TEST_F(ShotFile, OfTheProjectIsRendered) {
   }
 }
 
+/// A lamp and a sun beside the lamp of `cornell`, each with options of its own.
+class SeveralLights : public CommandLine {
+ protected:
+  const Words second_ = {"--light-position", "0.5,1.4,0.3", "--intensity", "0.2,0.3,0.9"};
+  const Words sun_ = {"--sun", "0.2,0.5,1", "--irradiance", "2,1.5,1"};
+
+  static Words joined(std::initializer_list<Words> lists) {
+    Words all;
+    for (const Words& list : lists) all.insert(all.end(), list.begin(), list.end());
+    return all;
+  }
+};
+
+TEST_F(SeveralLights, AddUpAndHaveChannelsOfTheirOwn) {
+  const Image all = render(joined({{"--light", "ceiling", "--intensity", "0.5"}, second_, sun_}));
+  const Image one = render({"--intensity", "0.5"}), two = render(second_), three = render(sun_);
+  EXPECT_EQ(all.channels.size(), 8u + 3 * 4u);
+  EXPECT_EQ(one.channels.size(), 8u);
+  for (const std::string channel : {"R", "G", "B"}) {
+    for (const std::string prefix : {"", "airlight."}) {
+      const std::string name = prefix + channel;
+      for (std::size_t i = 0; i < all.channels.at(name).size(); ++i) {
+        const float sum = one.channels.at(name)[i] + two.channels.at(name)[i] + three.channels.at(name)[i];
+        ASSERT_NEAR(all.channels.at(name)[i], sum, 1e-6f * sum) << name << " " << i;
+      }
+    }
+    EXPECT_EQ(all.channels.at("airlight.ceiling." + channel), one.channels.at("airlight." + channel));
+    EXPECT_EQ(all.channels.at("airlight.light1." + channel), two.channels.at("airlight." + channel));
+    EXPECT_EQ(all.channels.at("airlight.light2." + channel), three.channels.at("airlight." + channel));
+  }
+  EXPECT_EQ(all.channels.at("surface.ceiling.Y"), one.channels.at("surface.Y"));
+  EXPECT_EQ(all.channels.at("surface.light2.Y"), three.channels.at("surface.Y"));
+  EXPECT_EQ(all.metadata.at("airlight.light.light1.intensity"), "0.2,0.3,0.9");
+}
+
+TEST_F(SeveralLights, AreRepeatedByTheirCommand) {
+  const Image image = render(joined({sun_, {"--light", "ceiling"}, second_}));
+  const std::string command = image.metadata.at("airlight.command");
+  EXPECT_THAT(command, HasSubstr("--sun 0.2,0.5,1 --irradiance 2,1.5,1 --light ceiling --light-position "
+                                 "0.5,1.4,0.3 --intensity 0.2,0.3,0.9"));
+  EXPECT_EQ(shell(quality::shell_quote(AIRLIGHT_BINARY) + command.substr(8)).exit_code, 0);
+  EXPECT_EQ(quality::read_exr(file("image.exr")).channels, image.channels);
+}
+
+TEST_F(SeveralLights, OfAShotAreAllOnUnlessChosen) {
+  std::ofstream(file("two.toml")) << "scene = 'cornell'\n[[light]]\nname = 'ceiling'\n"
+                                     "[[light]]\nposition = [0.5, 1.4, 0.3]\nintensity = [0.2, 0.3, 0.9]\n";
+  const Image both = render({"two.toml"});
+  EXPECT_EQ(both.channels, render(joined({{"--light", "all"}, second_})).channels);
+  EXPECT_EQ(both.channels, render({"two.toml", "--light", "all"}).channels);
+  EXPECT_EQ(render({"two.toml", "--light", "light1"}).channels, render(second_).channels);
+  EXPECT_EQ(render({"two.toml", "--intensity", "2", "--light", "0"}).channels,
+            render({"--intensity", "2"}).channels)
+      << "of one light the options may stand before it";
+  const Result unsaid = airlight({"render", "two.toml", "-o", "x.exr", "--intensity", "1"});
+  expect_one_line_error(unsaid, 2);
+  EXPECT_THAT(unsaid.err, HasSubstr("--intensity: the scene has 'ceiling' (0), 'light1' (1); say which one"));
+}
+
+TEST_F(SeveralLights, ThatCannotReachTheViewAreSkippedAndSaidToBe) {
+  const Words words = {"--light", "ceiling", "--light-position", "0,0,2000", "--intensity", "1"};
+  const Image image = render(words);
+  EXPECT_EQ(image.metadata.at("airlight.skipped-lights"), "light1");
+  EXPECT_EQ(image.channels.at("R"), render({}).channels.at("R"));
+  const Json results = compare(joined({{"--volume", "vsv,reference"}, words}));
+  EXPECT_EQ(results["runs"][0]["skipped_lights"], 1);
+  EXPECT_EQ(results["runs"][0]["lights"][1]["skipped"], true);
+  EXPECT_EQ(results["runs"][1]["skipped_lights"], 0) << "the truth sees every light";
+  EXPECT_EQ(results["runs"][1]["error"]["surface"]["wrong_pixels"], 0);
+  EXPECT_EQ(2 * results["runs"][0]["error"]["surface"]["pixels"].get<int>(),
+            results["runs"][1]["error"]["surface"]["pixels"].get<int>());
+}
+
+TEST_F(SeveralLights, AreComparedTogether) {
+  const Words lights = joined({{"--light", "0"}, second_, sun_});
+  const Json results = compare(joined({{"--volume", "vsv,reference", "--cache", "kept", "--debug"}, lights}));
+  EXPECT_THAT(tests::schema_violations(results, Json::parse(read_text(AIRLIGHT_SCHEMA))), IsEmpty());
+  ASSERT_EQ(results["view"]["lights"].size(), 3u);
+  EXPECT_EQ(results["view"]["lights"][2]["name"], "light2");
+  const Json& vsv = results["runs"][0];
+  EXPECT_LT(vsv["error"]["airlight"]["rrmse"], 0.1);
+  EXPECT_EQ(vsv["debug_images"].size(), 3 * 3u);
+  double sum = 0.0;
+  for (const Json& light : vsv["lights"]) sum += light["stages_ms"]["integrate"].get<double>();
+  EXPECT_GT(sum, 0.5 * vsv["stages_ms"]["integrate"].get<double>());
+  EXPECT_EQ(results["runs"][1]["error"]["airlight"]["rrmse"], 0.0);
+  EXPECT_TRUE(fs::exists(file("out/vsv+shadow-map_grid_after_scan_2.exr")));
+  EXPECT_TRUE(quality::read_exr(file("out/reference.exr")).channels.contains("airlight.light2.G"));
+
+  // A light's truth is the same whatever shines beside it: nothing is traced, and nothing kept, a second
+  // time.
+  const auto kept = std::distance(fs::directory_iterator(file("kept")), fs::directory_iterator());
+  const Json alone = compare(joined({{"--volume", "vsv", "--cache", "kept"}, second_}));
+  EXPECT_EQ(std::distance(fs::directory_iterator(file("kept")), fs::directory_iterator()), kept);
+
+  const std::string command = vsv["command"];
+  EXPECT_EQ(shell(quality::shell_quote(AIRLIGHT_BINARY) + command.substr(8)).exit_code, 0) << command;
+  const Json again = Json::parse(read_text(file("out/vsv+shadow-map/results.json")));
+  EXPECT_EQ(again["view"], results["view"]);
+  EXPECT_EQ(again["runs"][0]["error"], vsv["error"]);
+}
+
 using Compare = CommandLine;
 
 TEST_F(Compare, ResultsFollowTheirSchema) {
@@ -715,12 +823,17 @@ TEST_F(Compare, ResultsFollowTheirSchema) {
       std::make_shared<const scene::LightTexture>("", glm::ivec2(1), std::vector<glm::vec3>(1));
   whole.medium = {.phase = scene::PhaseFunction::hoffman_preetham, .top = 1.0};
   sunny.lights = {scene::sun("", {0, 1, 0}, glm::vec3(1.0f))};
-  for (const scene::View& shown : {whole, sunny})
+  const Json& light = view.at("lights").at("items").at("properties");
+  for (const scene::View& shown : {whole, sunny}) {
+    for_each_value(shown.lights[0], [&](const scene::FieldInfo& field, const scene::FieldValue&) {
+      EXPECT_TRUE(light.contains(field.key())) << field.name;
+    });
     for_each_value_of_view(
         shown, [&](std::string_view part, const scene::FieldInfo& field, const scene::FieldValue&) {
           const Json& group = part.empty() ? view : view.at(std::string(part)).at("properties");
           EXPECT_TRUE(group.contains(field.key())) << field.name;
         });
+  }
 
   // The check itself sees what is missing, what is not documented, and what is of the wrong type.
   Json broken = results;

@@ -25,8 +25,11 @@ inline bool has_type(const Json& value, const std::string& type) {
 
 /// Where a value breaks a JSON Schema (draft 07), one line each. Knows the words that the schema of
 /// results.json uses; throws on one it does not know. Every property must be described.
+/// @param whole the schema that definitions are looked up in; nullptr where it is `schema` itself
 inline std::vector<std::string> schema_violations(const Json& value, const Json& schema,
-                                                  const std::string& where = "") {
+                                                  const std::string& where = "",
+                                                  const Json* whole = nullptr) {
+  if (!whole) whole = &schema;
   std::vector<std::string> violations;
   const auto violated = [&](const std::string& what) { violations.push_back(where + ": " + what); };
   const auto add = [&](const std::vector<std::string>& more) {
@@ -51,7 +54,7 @@ inline std::vector<std::string> schema_violations(const Json& value, const Json&
       if (value.is_array() && value.size() > rule) violated("too many items");
     } else if (word == "items") {
       for (std::size_t i = 0; value.is_array() && i < value.size(); ++i) {
-        add(schema_violations(value[i], rule, fmt::format("{}/{}", where, i)));
+        add(schema_violations(value[i], rule, fmt::format("{}/{}", where, i), whole));
       }
     } else if (word == "required") {
       for (const Json& name : rule) {
@@ -61,7 +64,7 @@ inline std::vector<std::string> schema_violations(const Json& value, const Json&
       for (const auto& [name, property] : rule.items()) {
         if (!property.contains("description")) violated("the schema does not say what " + name + " is");
         if (value.is_object() && value.contains(name)) {
-          add(schema_violations(value[name], property, where + "/" + name));
+          add(schema_violations(value[name], property, where + "/" + name, whole));
         }
       }
     } else if (word == "additionalProperties") {
@@ -69,7 +72,10 @@ inline std::vector<std::string> schema_violations(const Json& value, const Json&
       for (const auto& [name, unused] : value.items()) {
         if (!schema.at("properties").contains(name)) violated("is not documented to have " + name);
       }
-    } else if (word != "$schema" && word != "title" && word != "description") {
+    } else if (word == "$ref") {
+      const auto pointer = rule.get<std::string>().substr(1);  // after '#'
+      add(schema_violations(value, whole->at(Json::json_pointer(pointer)), where, whole));
+    } else if (word != "$schema" && word != "definitions" && word != "title" && word != "description") {
       throw std::runtime_error("the schema uses an unknown word " + word);
     }
   }

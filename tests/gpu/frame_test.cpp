@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <memory>
 #include <numbers>
 
@@ -50,14 +51,17 @@ std::shared_ptr<const scene::LightTexture> two_colours() {
       "t", glm::ivec2(2, 1), std::vector<glm::vec3>{{1.0f, 0.2f, 0.1f}, {0.0f, 1.0f, 0.5f}});
 }
 
+/// Cornell with two more lamps.
+scene::View three_lamps() {
+  scene::View view = view_of(builtin("cornell"), {24, 20});
+  view.lights.push_back(scene::point_light("second", {0.5, 1.4, 0.3}, {0.2f, 0.3f, 0.9f}));
+  view.lights.push_back(scene::point_light("third", {-0.5, 1.2, 1.5}, {0.5f, 0.1f, 0.1f}));
+  return view;
+}
+
 /// A frame with three lights has to be the sum of three with one each.
-void expect_sum_of_lights(const media::VsvOptions& options,
-                          const std::shared_ptr<const scene::LightTexture>& texture_of_second) {
+void expect_sum_of_lights(const media::VsvOptions& options, const scene::View& view) {
   const scene::Scene& scene = builtin("cornell");
-  scene::View view = view_of(scene, {24, 20});
-  view.lights.push_back(scene::point_light("", {0.5, 1.4, 0.3}, {0.2f, 0.3f, 0.9f}));
-  view.lights.push_back(scene::point_light("", {-0.5, 1.2, 1.5}, {0.5f, 0.1f, 0.1f}));
-  view.lights[1].texture = texture_of_second;
   Frame frame(gpu_context(), scene.geometry, 256);
   ShadowMapLookup shadow;
   media::Vsv vsv(gpu_context(), options);
@@ -77,23 +81,116 @@ void expect_sum_of_lights(const media::VsvOptions& options,
       airlight[i] += one.airlight[i];
     }
     EXPECT_EQ(all.visibility[light], one.visibility[0]) << light;
+    EXPECT_EQ(all.airlight_of_light[light], one.airlight) << light;
+    EXPECT_EQ(all.lights[light], view.lights[light].name);
+    EXPECT_TRUE(one.airlight_of_light.empty());
   }
   expect_near(all.radiance, radiance, 1e-6);
   expect_near(all.airlight, airlight, 1e-6);
 }
 
 TEST(Frame, AddsUpItsLights) {
-  expect_sum_of_lights({.volume = {.resolution = {64, 128, 128}}}, nullptr);
+  expect_sum_of_lights({.volume = {.resolution = {64, 128, 128}}}, three_lamps());
 }
 
 TEST(Frame, AddsUpItsLightsOfAConservativeGrid) {
   expect_sum_of_lights(
-      {.volume = {.resolution = {64, 128, 128}, .populate = epipolar::Populate::conservative}}, nullptr);
+      {.volume = {.resolution = {64, 128, 128}, .populate = epipolar::Populate::conservative}},
+      three_lamps());
 }
 
-TEST(Frame, AddsUpATexturedLightAndOthers) {
+TEST(Frame, AddsUpTexturedLightsAndOthers) {
+  scene::View view = three_lamps();
+  view.lights[1].texture = two_colours();
+  view.lights[2].texture = two_colours();
   expect_sum_of_lights({.integral = media::VsvIntegral::riemann, .volume = {.resolution = {64, 128, 128}}},
-                       two_colours());
+                       view);
+}
+
+TEST(Frame, AddsUpASunAndLamps) {
+  scene::View view = three_lamps();
+  view.lights[1] = scene::sun("sun", {0.2, 0.5, 1}, {2.0f, 1.5f, 1.0f});
+  view.medium.sigma_a = {0.0f, 0.1f, 0.2f};
+  expect_sum_of_lights({.volume = {.resolution = {64, 128, 128}}}, view);
+  view.medium.top = 3.0;
+  expect_sum_of_lights({.volume = {.resolution = {64, 128, 128}}}, view);
+}
+
+TEST(Frame, AddsUpLightsThatNeedTablesOfTheirOwn) {
+  // The distance to the second makes its integrand rough; its table has more rows.
+  scene::View view = three_lamps();
+  view.medium.sigma_a = glm::vec3(0.9f);
+  view.lights[1].position = {0.3, 1.2, -3.9};
+  expect_sum_of_lights({.volume = {.resolution = {64, 128, 128}}}, view);
+}
+
+TEST(Frame, TimesTheStagesOfEachLight) {
+  const scene::View view = three_lamps();
+  Frame frame(gpu_context(), builtin("cornell").geometry, 64);
+  ShadowMapLookup shadow;
+  media::Vsv vsv = small_vsv();
+  gpu::StageTimer timer(&gpu_context());
+  frame.render(view, shadow, vsv, timer);
+  std::map<std::string, double> sums;
+  for (std::size_t light = 0; light < 3; ++light) {
+    const auto of_light = timer.milliseconds(light);
+    EXPECT_TRUE(of_light.contains("integrate") && of_light.contains("composite")) << light;
+    EXPECT_FALSE(of_light.contains("surfaces")) << light;
+    for (const auto& [stage, ms] : of_light) sums[stage] += ms;
+  }
+  sums["surfaces"] = timer.milliseconds().at("surfaces");
+  EXPECT_EQ(sums.size(), timer.milliseconds().size());
+  for (const auto& [stage, ms] : timer.milliseconds())
+    EXPECT_NEAR(sums[stage], ms, 1e-9 + 1e-9 * ms) << stage;
+}
+
+/// Sees every light.
+class ThoroughAirlight : public NoAirlight {
+ public:
+  void integrate(const FrameInputs& inputs, const gpu::Texture& radiance) override {
+    ++calls;
+    NoAirlight::integrate(inputs, radiance);
+  }
+  bool sees_every_light() const override { return is_thorough; }
+  int calls = 0;
+  bool is_thorough = false;
+};
+
+TEST(Frame, SkipsLightsThatCannotReachTheViewAndShowsTheSame) {
+  const scene::Scene& scene = builtin("cornell");
+  const scene::View three = three_lamps();
+  ShadowMapLookup shadow;
+  media::Vsv vsv = small_vsv();
+  Frame frame(gpu_context(), scene.geometry, 64);
+  for (const std::size_t skipped : {0u, 1u, 2u}) {
+    scene::View view = three;
+    view.lights[skipped].position = {0, 0, 1e4};
+    scene::View others = three;
+    others.lights.erase(others.lights.begin() + static_cast<std::ptrdiff_t>(skipped));
+    const FrameImages images = render(frame, view, shadow, vsv);
+    for (std::size_t light = 0; light < 3; ++light) EXPECT_EQ(images.is_skipped[light], light == skipped);
+    EXPECT_EQ(images.airlight_of_light[skipped],
+              std::vector<glm::vec3>(images.radiance.size(), glm::vec3(0.0f)));
+    EXPECT_EQ(images.visibility[skipped], std::vector<float>(images.radiance.size(), 0.0f));
+    const FrameImages expected = render(frame, others, shadow, vsv);
+    EXPECT_EQ(images.radiance, expected.radiance);
+    EXPECT_EQ(images.airlight, expected.airlight);
+  }
+
+  scene::View view = three;
+  for (scene::Light& light : view.lights) light.position = {0, 0, 1e4};
+  const FrameImages black = render(frame, view, shadow, vsv);
+  EXPECT_EQ(black.radiance, std::vector<glm::vec3>(black.radiance.size(), glm::vec3(0.0f)));
+  EXPECT_EQ(black.airlight, black.radiance);
+  view.lights.resize(1);
+  EXPECT_EQ(render(frame, view, shadow, vsv).radiance, black.radiance);
+
+  ThoroughAirlight airlight;
+  render(frame, view, shadow, airlight);
+  EXPECT_EQ(airlight.calls, 0);
+  airlight.is_thorough = true;
+  EXPECT_FALSE(render(frame, view, shadow, airlight).is_skipped[0]);
+  EXPECT_EQ(airlight.calls, 1);
 }
 
 /// Lets an amount through that is the same everywhere.
@@ -180,6 +277,7 @@ TEST(Frame, RemembersNothingOfTheFramesBefore) {
     const FrameImages images = render(kept, view, shadow, kept_vsv);
     EXPECT_EQ(images.radiance, expected.radiance) << what;
     EXPECT_EQ(images.airlight, expected.airlight) << what;
+    EXPECT_EQ(images.airlight_of_light, expected.airlight_of_light) << what;
     EXPECT_EQ(images.visibility, expected.visibility) << what;
     EXPECT_EQ(images.distance, expected.distance) << what;
   }

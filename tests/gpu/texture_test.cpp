@@ -228,5 +228,12 @@ TEST(TexelView, OverTheLimitIsAnErrorThatNamesIt) {
   }
 }
 
+TEST(Texture, IsCleared) {
+  const Texture texture(Format::rgba32f, {2, 3});
+  texture.write(std::vector<glm::vec4>(6, glm::vec4(1.0f)).data());
+  texture.clear();
+  EXPECT_EQ(texture.read<glm::vec4>(), std::vector<glm::vec4>(6, glm::vec4(0.0f)));
+}
+
 }  // namespace
 }  // namespace airlight::gpu

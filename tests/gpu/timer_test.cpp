@@ -42,6 +42,24 @@ TEST_P(StageTimerWith, GivesAnInnerStageItsTimeAndTheOuterTheRest) {
   EXPECT_LE(stages.at("inner") + stages.at("outer"), total + late) << "nothing is counted twice";
 }
 
+TEST_P(StageTimerWith, TellsPartsOfAFrameApart) {
+  StageTimer timer(gpu_context(), GetParam());
+  timer.time("stage", [] {});
+  timer.begin_part(0);
+  timer.time("stage", [] {});
+  timer.time("own", [] {});
+  timer.begin_part(1);
+  timer.time("stage", [] {});
+  timer.begin_part({});
+  timer.time("after", [] {});
+  EXPECT_EQ(timer.milliseconds().size(), 3u);
+  EXPECT_EQ(timer.milliseconds(0).size(), 2u);
+  EXPECT_EQ(timer.milliseconds(1).size(), 1u);
+  EXPECT_TRUE(timer.milliseconds(2).empty());
+  EXPECT_GE(timer.milliseconds().at("stage"),
+            timer.milliseconds(0).at("stage") + timer.milliseconds(1).at("stage"));
+}
+
 TEST_P(StageTimerWith, CountsWorkOfTheGpu) {
   StageTimer timer(gpu_context(), GetParam());
   const Buffer buffer(1 << 26);

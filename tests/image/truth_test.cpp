@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "quality/image_io.h"
+#include "quality/methods.h"
+#include "quality/traced.h"
 #include "scene/import.h"
 #include "support/render.h"
 #include "support/truth.h"
@@ -26,6 +28,7 @@ std::vector<CyclesImage> all_images() {
   images.insert(images.end(), std::begin(tests::k_cycles_sun_airlight),
                 std::end(tests::k_cycles_sun_airlight));
   images.push_back(tests::k_cycles_sun_full);
+  images.push_back(tests::k_cycles_three_full);
   return images;
 }
 
@@ -69,6 +72,26 @@ TEST_P(VsvTruth, MeanAndPercentilesAgree) {
 
 INSTANTIATE_TEST_SUITE_P(Cycles, VsvTruth, testing::ValuesIn(all_images()),
                          [](const auto& test) { return std::string(test.param.image); });
+
+TEST(ReferenceTruth, MeanOfThreeLightsAgrees) {
+  const CyclesImage& truth = tests::k_cycles_three_full;
+  AIRLIGHT_NEEDS(truth.image_file());
+  AIRLIGHT_NEEDS(truth.scene_file());
+  scene::Scene scene = scene::import_scene(truth.scene_file());
+  scene::override_albedo(scene.geometry, glm::vec3(truth.albedo));
+  const scene::View view = truth.view();
+  quality::SharedReference reference(scene.geometry, view, {});
+  const auto airlight = quality::parse_volumes("reference")[0].make(tests::gpu_context(), reference);
+  const auto shadow = quality::parse_surfaces("reference")[0].make(tests::gpu_context(), reference);
+  frame::Frame frame(tests::gpu_context(), scene.geometry, 16);
+  gpu::StageTimer off(nullptr);
+  frame.render(view, *shadow, *airlight, off);
+  std::vector<float> red;
+  for (const glm::vec3& radiance : frame.read().radiance) red.push_back(radiance.r);
+  const std::vector<float> expected = quality::read_exr(truth.image_file()).channels.at("R");
+  RecordProperty("mean_ratio", std::to_string(mean(red) / mean(expected)));
+  EXPECT_NEAR(mean(red) / mean(expected), 1.0, 0.005);
+}
 
 }  // namespace
 }  // namespace airlight

@@ -59,5 +59,20 @@ TEST(WhyBlack, TellsOfAClosedPartThatHoldsTheEyeUnderASun) {
   }
 }
 
+TEST(WhyBlack, TellsOfEachOfSeveralLights) {
+  scene::View view = view_of(scene::sun("noon", {0, 1, 0}, glm::vec3(0.0f)));
+  view.lights.push_back(scene::point_light("far", {0, 0, 1005}, glm::vec3(1.0f)));
+  EXPECT_EQ(why_black(sphere(), view), k_unknown) << "of one alone there is no reason";
+  view.medium.sigma_a = glm::vec3(1.0f);
+  EXPECT_THAT(why_black(sphere(), view),
+              testing::StartsWith("of light 'noon': the light's irradiance is 0; of light 'far': no path"));
+}
+
+TEST(WhyBlack, TellsOfASpotThatShinesElsewhere) {
+  scene::View view = view_of(scene::point_light("", {0, 0, 10}, glm::vec3(1.0f)));
+  view.lights[0].cone = scene::Cone{.axis = {0, 0, 1}, .inner = 0.0, .outer = 0.5};
+  EXPECT_EQ(why_black(sphere(), view), "nothing that is seen lies within the light's cone and range");
+}
+
 }  // namespace
 }  // namespace airlight::quality

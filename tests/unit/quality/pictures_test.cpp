@@ -69,5 +69,28 @@ TEST(Frame, HasItsChannelsInAFile) {
   EXPECT_EQ(image.metadata.at("airlight.scene"), "hall");
 }
 
+TEST(Frame, OfSeveralLightsHasChannelsOfEach) {
+  frame::FrameImages images;
+  images.size = {1, 1};
+  images.radiance = {{1, 2, 3}};
+  images.airlight = {{4, 5, 6}};
+  images.lights = {"lamp.001", "light1"};
+  images.is_skipped = {false, true};
+  images.airlight_of_light = {{{4, 5, 6}}, {{0, 0, 0}}};
+  images.visibility = {{1}, {0}};
+  images.distance = {7};
+  const auto file = std::filesystem::temp_directory_path() / fmt::format("airlight-lights-{}.exr", getpid());
+  write_frame(file, images, {});
+  const Image image = read_exr(file);
+  std::filesystem::remove(file);
+  EXPECT_EQ(image.channels.size(), 3u + 3u + 2u + 2 * 4u);
+  EXPECT_EQ(image.channels.at("airlight.lamp.001.G"), std::vector<float>{5});
+  EXPECT_EQ(image.channels.at("airlight.light1.G"), std::vector<float>{0});
+  EXPECT_EQ(image.channels.at("surface.lamp.001.Y"), std::vector<float>{1});
+  EXPECT_EQ(image.channels.at("surface.light1.Y"), std::vector<float>{0});
+  EXPECT_EQ(image.channels.at("surface.Y"), std::vector<float>{0.5f});
+  EXPECT_EQ(image.metadata.at("airlight.skipped-lights"), "light1");
+}
+
 }  // namespace
 }  // namespace airlight::quality

@@ -42,6 +42,19 @@ TEST(Report, ShowsEachRunWithItsImagesAndCommand) {
   EXPECT_THAT(html, HasSubstr("airlight compare 'a &amp; b'"));
 }
 
+TEST(Report, NamesEachOfSeveralLights) {
+  Comparison comparison = one_run();
+  EXPECT_THAT(report_html(comparison), HasSubstr("<dt>light</dt>"));
+  comparison.view.lights = {scene::point_light("a & b", {1, 2, 3}, glm::vec3(4.0f)),
+                            scene::sun("noon", {0, 1, 0}, glm::vec3(5.0f))};
+  comparison.runs[0].cost.lights = {{.is_skipped = false, .stages_ms = {{"scan", 1.25}}},
+                                    {.is_skipped = true, .stages_ms = {}}};
+  const std::string html = report_html(comparison);
+  EXPECT_THAT(html, HasSubstr("<dt>light a &amp; b</dt>"));
+  EXPECT_THAT(html, HasSubstr("<td>a &amp; b</td><td>1.25</td>"));
+  EXPECT_THAT(html, HasSubstr("<td>noon (skipped)</td><td>–</td>"));
+}
+
 TEST(Report, EscapesWhatTheUserTyped) {
   const std::string html = report_html(one_run());
   EXPECT_THAT(html, HasSubstr("&lt;hall&gt; &amp; &quot;yard&quot;"));

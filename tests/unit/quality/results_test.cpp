@@ -125,7 +125,7 @@ void expect_every_field(const Comparison& comparison) {
     }
   };
   look_for(view.camera, results.at("camera"));
-  look_for(view.lights[0], results.at("light"));
+  look_for(view.lights[0], results.at("lights").at(0));
   look_for(view.medium, results.at("medium"));
   look_for(view, results);
   EXPECT_EQ(options.size(), count);
@@ -140,7 +140,7 @@ TEST(View, HasEveryFieldInMetadataAndResults) {
   view.medium.top = 16.0;
   expect_every_field(comparison);
   const json results = json::parse(results_json(comparison))["view"];
-  EXPECT_EQ(results["light"]["texture"], "a.exr");
+  EXPECT_EQ(results["lights"][0]["texture"], "a.exr");
   EXPECT_EQ(results["size"], (json{512, 512}));
   EXPECT_EQ(results["camera"]["target"], (json{0.0, 0.0, -1.0}));
 }
@@ -152,11 +152,50 @@ TEST(View, OfASunHasItsDirectionAndIrradiance) {
   view.medium = {.phase = scene::PhaseFunction::hoffman_preetham, .top = 16.0};
   expect_every_field(comparison);
   const json results = json::parse(results_json(comparison))["view"];
-  EXPECT_EQ(results["light"],
+  EXPECT_EQ(results["lights"][0],
             (json{{"name", "noon"}, {"towards", {0.0, 1.0, 0.0}}, {"irradiance", {3.0, 2.0, 1.0}}}));
   EXPECT_EQ(results["medium"]["fog_top"], 16.0);
   EXPECT_EQ(view_options(view).at("sun"), "0,1,0");
   EXPECT_EQ(view_options(view).at("fog-top"), "16");
+}
+
+/// Two runs of two lights.
+Comparison of_two_lights() {
+  Comparison comparison = two_runs();
+  comparison.view.lights = {scene::point_light("left", {1, 2, 3}, glm::vec3(4.0f)),
+                            scene::sun("noon", {0, 1, 0}, glm::vec3(5.0f))};
+  for (Run& run : comparison.runs)
+    run.cost.lights = {{.is_skipped = true, .stages_ms = {}},
+                       {.is_skipped = false, .stages_ms = {{"scan", 2.25}}}};
+  return comparison;
+}
+
+TEST(View, OfSeveralLightsNamesEach) {
+  const Comparison comparison = of_two_lights();
+  const auto options = view_options(comparison.view);
+  EXPECT_EQ(options.at("light.left.light-position"), "1,2,3");
+  EXPECT_EQ(options.at("light.left.intensity"), "4,4,4");
+  EXPECT_EQ(options.at("light.noon.sun"), "0,1,0");
+  EXPECT_FALSE(options.contains("intensity"));
+  const json results = json::parse(results_json(comparison))["view"];
+  ASSERT_EQ(results["lights"].size(), 2u);
+  EXPECT_EQ(results["lights"][0]["name"], "left");
+  EXPECT_EQ(results["lights"][1]["irradiance"], (json{5.0, 5.0, 5.0}));
+}
+
+TEST(ResultsJson, HasWhatEachLightCost) {
+  const json run = json::parse(results_json(of_two_lights()))["runs"][0];
+  EXPECT_EQ(run["skipped_lights"], 1);
+  EXPECT_EQ(run["lights"],
+            json::array({{{"name", "left"}, {"skipped", true}, {"stages_ms", json::object()}},
+                         {{"name", "noon"}, {"skipped", false}, {"stages_ms", {{"scan", 2.25}}}}}));
+}
+
+TEST(ResultsTable, HasARowOfStagesForEachOfSeveralLights) {
+  const std::string table = results_table(of_two_lights());
+  EXPECT_THAT(table, HasSubstr("left (skipped)"));
+  EXPECT_THAT(table, HasSubstr(" 2.25\n"));
+  EXPECT_THAT(results_table(two_runs()), testing::Not(HasSubstr("skipped")));
 }
 
 TEST(View, HasNoFieldsThatItsMediumHasNot) {

@@ -516,7 +516,7 @@ TEST_F(ImportGltf, ReadsPerspectiveCameras) {
   const Scene scene = load(with_camera(k_perspective, node));
   ASSERT_EQ(scene.cameras.size(), 1u);
   const Camera& camera = scene.cameras[0];
-  EXPECT_EQ(camera.name, "camera 0");
+  EXPECT_EQ(camera.name, "camera0");
   expect_near(camera.eye, {1, 2, 3});
   expect_near(camera.target, {1, 3, 3});
   expect_near(camera.up, {0, 0, 1});
@@ -549,7 +549,7 @@ TEST_F(ImportGltf, ReadsPointLights) {
 
   scene = load(with_light({{"type", "point"}}));
   EXPECT_EQ(scene.lights[0].intensity, V(1.0f)) << "the defaults are white and one candela";
-  EXPECT_EQ(scene.lights[0].name, "light 0");
+  EXPECT_EQ(scene.lights[0].name, "light0");
   EXPECT_EQ(load(with_light({{"type", "point"}, {"name", "own"}}, node)).lights[0].name, "own");
 }
 

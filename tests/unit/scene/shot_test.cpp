@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -200,7 +201,7 @@ TEST_F(Shot, HasASunInPlaceOfALamp) {
   const Scene scene = load(
       "scene = 'cornell'\n[sun]\ntowards = [0, 3, 4]\nirradiance = [3, 2.5, 1]\n"
       "[medium]\nfog_top = 16\n");
-  ASSERT_EQ(scene.lights.size(), 2u);
+  ASSERT_EQ(scene.lights.size(), 1u) << "it stands in for the scene's";
   const Light& sun = scene.lights[0];
   ASSERT_TRUE(is_sun(sun));
   EXPECT_NEAR(glm::distance(sun.towards, D(0, 0.6, 0.8)), 0.0, 1e-15);
@@ -212,6 +213,55 @@ TEST_F(Shot, HasASunInPlaceOfALamp) {
   ASSERT_TRUE(is_sun(by_angles));
   EXPECT_NEAR(glm::distance(by_angles.towards, D(std::sqrt(0.75), 0.5, 0)), 0.0, 1e-15);
   EXPECT_EQ(by_angles.irradiance, V(2));
+}
+
+std::vector<std::string> names_of(const std::vector<Light>& lights) {
+  std::vector<std::string> names;
+  for (const Light& light : lights) names.push_back(light.name);
+  return names;
+}
+
+TEST_F(Shot, HasSeveralLightsWithKeysOfEitherKind) {
+  const Scene scene = load(
+      "scene = 'cornell'\n"
+      "[[light]]\nposition = [0, 1, 0]\nintensity = [1, 2, 3]\n"
+      "[[light]]\nname = 'ceiling'\nintensity = 7\n"
+      "[[light]]\ntowards = [0, 3, 4]\nirradiance = 5\n"
+      "[[light]]\nangles = [90, 0]\nirradiance = 6\n");
+  EXPECT_THAT(names_of(scene.lights), testing::ElementsAre("light0", "ceiling", "light2", "light3"));
+  EXPECT_EQ(scene.lights[0].position, D(0, 1, 0));
+  EXPECT_EQ(scene.lights[0].intensity, V(1, 2, 3));
+  EXPECT_EQ(scene.lights[1].position, D(0, 1.85, 0));
+  EXPECT_EQ(scene.lights[1].intensity, V(7));
+  ASSERT_TRUE(is_sun(scene.lights[2]) && is_sun(scene.lights[3]));
+  EXPECT_NEAR(glm::distance(scene.lights[2].towards, D(0, 0.6, 0.8)), 0.0, 1e-15);
+  EXPECT_EQ(scene.lights[2].irradiance, V(5));
+  EXPECT_NEAR(glm::distance(scene.lights[3].towards, D(1, 0, 0)), 0.0, 1e-15);
+}
+
+TEST_F(Shot, KeepsTheLightsOfItsSceneOrAllOfThemAndMore) {
+  EXPECT_THAT(names_of(load("scene = 'cornell'\n").lights), testing::ElementsAre("ceiling"));
+  EXPECT_THAT(names_of(load("scene = 'cornell'\n[light]\n").lights), testing::ElementsAre("ceiling"));
+  EXPECT_THAT(names_of(load("scene = 'cornell'\n[[light]]\nname = 'all'\n"
+                            "[[light]]\nposition = [0, 1, 0]\nintensity = 1\n")
+                           .lights),
+              testing::ElementsAre("ceiling", "light1"));
+}
+
+TEST_F(Shot, RefusesSeveralLightsThatCannotBe) {
+  const std::string scene = "scene = 'cornell'\n";
+  expect_error(scene + "[[light]]\nname = 'ceiling'\n[[light]]\nname = '0'\n",
+               "line 5, light.name: the light 'ceiling' is chosen twice");
+  expect_error(scene + "[[light]]\nname = 'ceiling'\n[[light]]\nintensity = 1\n",
+               "the light 'ceiling' is chosen twice");
+  expect_error(scene + "[[light]]\nname = 'ceiling'\n[[light]]\nposition = [0, 1, 0]\n",
+               "line 5, light.position: it needs intensity");
+  expect_error(scene + "[[light]]\nposition = [0, 1, 0]\ntowards = [0, 1, 0]\n",
+               "line 3, light.position: towards contradicts it");
+  expect_error(scene + "[[light]]\nfov = 30\n", "line 3: there is no key 'fov' in [light]");
+  expect_error(scene + "[[light]]\n[sun]\n", "line 3, sun: [light] contradicts it");
+  expect_error(scene + "[[sun]]\n", "sun: it must be a table, begun by [sun]");
+  expect_error(scene + "light = [1, 2]\n", "line 2, light: it must be a table, begun by [light]");
 }
 
 TEST_F(Shot, RefusesSunsThatCannotBe) {
