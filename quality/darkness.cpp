@@ -94,6 +94,34 @@ double shortest_path(const scene::View& view, const scene::Light& light) {
                   below_top(view.camera.eye.y) + (is_sun(light) ? 0.0 : below_top(light.position.y)));
 }
 
+/// Why a lamp's cone or range keeps all of its light from what the image shows; empty where a plane between
+/// the two does not prove it.
+std::string out_of_sight(const scene::View& view, const scene::Light& light) {
+  const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
+  const std::array<glm::dvec3, 4> edges = scene::corner_rays(camera);
+  const glm::dvec3 from_eye = light.position - camera.eye;
+  // Planes through the eye, their normals towards what is seen.
+  std::array<glm::dvec3, 5> inward = {camera.forward};
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    inward[i + 1] = glm::normalize(glm::cross(edges[(i + 1) % 4], edges[i]));
+  const auto lies_outside = [&](const auto& reaches_in) {
+    return std::any_of(inward.begin(), inward.end(), [&](const glm::dvec3& n) { return !reaches_in(n); });
+  };
+  if (light.range && lies_outside([&](const glm::dvec3& n) { return glm::dot(n, from_eye) > -*light.range; }))
+    return fmt::format("the light's range of {:.3g} m ends before what is seen", *light.range);
+  if (!light.cone) return {};
+  const scene::Cone& cone = *light.cone;
+  const bool is_behind_it = glm::dot(cone.axis, from_eye) >= 0.0 &&
+                            std::all_of(edges.begin(), edges.end(), [&](const glm::dvec3& edge) {
+                              return glm::dot(cone.axis, edge) <= 0.0;
+                            });
+  if (is_behind_it || lies_outside([&](const glm::dvec3& n) {
+        return glm::dot(n, from_eye) > 0.0 || glm::dot(n, cone.axis) > -std::sin(cone.outer);
+      }))
+    return "the spot looks away from what is seen";
+  return {};
+}
+
 /// A point where the light is; of a sun, one that lies towards it beyond all geometry.
 glm::dvec3 place_of(const scene::Light& light, const scene::Geometry& geometry) {
   if (!is_sun(light)) return light.position;
@@ -124,7 +152,10 @@ std::string why_black(const scene::Geometry& geometry, const scene::View& view) 
           "no path from the light to the eye is shorter than {:.3g} m in the medium, which lets through "
           "e^-{:.4g}",
           path, depth);
-    } else {
+    } else if (!is_sun(light)) {
+      of_light = out_of_sight(view, light);
+    }
+    if (of_light.empty()) {
       of_light = enclosure(geometry, place_of(light, geometry), view.camera.eye);
     }
     if (of_light.empty()) return "whatever is seen lies in shadow, or neither reflects nor scatters";

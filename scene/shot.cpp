@@ -64,6 +64,7 @@ class Table {
       case FieldKind::direction:
         return vector_of<glm::dvec3>(key, *node, "it must be three numbers, as in [0, 1, 0]");
       case FieldKind::angles:
+      case FieldKind::cone:
         return vector_of<glm::dvec2>(key, *node, "it must be two numbers, as in [30, 45]");
       case FieldKind::colour: {
         constexpr const char* k_wanted = "it must be a number or three, as in [1, 0.8, 0.6]";
