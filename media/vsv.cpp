@@ -118,6 +118,10 @@ std::optional<frame::Refusal> VsvOptions::refusal(const scene::View& view) const
                                       view.medium.g, k_narrowest_lobe),
                           "use a g nearer to 0, or the method reference"};
   }
+  for (const scene::Light& light : view.lights) {
+    if (light.cone) return frame::Refusal{{}, "it cannot take a spot", "use the method reference"};
+    if (light.range) return frame::Refusal{{}, "it cannot take a light's range", "use the method reference"};
+  }
   if (integral == VsvIntegral::riemann) return {};
   const auto refuse = [&](std::string what) {
     return frame::Refusal{integral == VsvIntegral::table ? "integral=table" : "integral=factored",

@@ -98,6 +98,9 @@ std::string TruthCache::key(std::size_t light_index, const std::string& what) co
     hash.add(light.texture->texels());
     key += fmt::format("texture {} {}x{}\n", hash.text(), light.texture->size().x, light.texture->size().y);
   }
+  if (light.cone)
+    key += fmt::format("cone {} {:a} {:a}\n", exact(light.cone->axis), light.cone->inner, light.cone->outer);
+  if (light.range) key += fmt::format("range {:a}\n", *light.range);
   return key;
 }
 

@@ -17,7 +17,8 @@
 // fast, it grows without bound as ψ → 0, it would where a light ray from above the layer were level, and the
 // lobe of a Henyey-Greenstein phase function is 1 − |g| wide. Panels that are no longer than each of these
 // scales, measured where the panel begins, leave Gauss–Legendre quadrature an error near rounding. A light's
-// texture adds scales of its own, and kinks, where panels end (light_texture.h).
+// texture, its cone and its range add scales of their own, and kinks, where panels end (light_texture.h,
+// light_shape.h).
 
 namespace airlight::reference {
 
@@ -127,9 +128,10 @@ double FogQuadrature::panel_end(double psi, double optical_depth) const {
 
 /// @param f       the integrand, of ψ
 /// @param longest what else bounds the length of a panel from ψ on
+/// @param is_even whether a small part of a panel's length leaves the integrand nearly constant
 template <class Value, class Integrand, class Longest>
 Value FogQuadrature::sum_panels(double psi_from, double psi_to, const Integrand& f,
-                                const Longest& longest_from) const {
+                                const Longest& longest_from, bool is_even) const {
   Value sum(0.0);
   double psi = psi_from;
   while (psi > psi_to) {
@@ -143,9 +145,9 @@ Value FogQuadrature::sum_panels(double psi_from, double psi_to, const Integrand&
     for (int part = 0; part < parts_ && !is_dark; ++part) {
       const double from = psi + (next - psi) * part / parts_, to = psi + (next - psi) * (part + 1) / parts_;
       // Short lit runs between many shadows are common, and need few nodes.
-      if (length < longest / 64.0) {
+      if (is_even && length < longest / 64.0) {
         sum += gauss_legendre(k_gauss_2, from, to, f);
-      } else if (length < longest / 8.0) {
+      } else if (is_even && length < longest / 8.0) {
         sum += gauss_legendre(k_gauss_4, from, to, f);
       } else {
         sum += gauss_legendre(k_gauss_8, from, to, f);
@@ -156,18 +158,30 @@ Value FogQuadrature::sum_panels(double psi_from, double psi_to, const Integrand&
   return sum;
 }
 
-glm::dvec3 FogQuadrature::integral(double psi_from, double psi_to, const LightAlongRay* light) const {
-  if (!light) {
-    return glm::dvec3(sum_panels<double>(
-        psi_from, psi_to, [this](double psi) { return integrand(psi); },
-        [](double) { return std::numeric_limits<double>::infinity(); }));
-  }
+glm::dvec3 FogQuadrature::integral(double psi_from, double psi_to, const LightAlongRay* texture,
+                                   const LightShape* shape) const {
+  constexpr double k_infinity = std::numeric_limits<double>::infinity();
   glm::dvec3 sum(0.0);
-  light->for_each_piece(psi_from, psi_to, [&](double from, double to) {
-    sum += sum_panels<glm::dvec3>(
-        from, to, [&](double psi) { return integrand(psi) * light->at(psi); },
-        [&](double psi) { return light->smooth_length(psi); });
-  });
+  // A share that falls to 0 changes by all of itself in the shortest run.
+  const auto add_piece = [&](double piece_from, double piece_to, bool is_even) {
+    const auto untextured = [&](double psi) {
+      return is_even ? integrand(psi) : integrand(psi) * shape->at(psi);
+    };
+    const auto longest = [&](double psi) { return is_even ? k_infinity : shape->smooth_length(psi); };
+    if (!texture) {
+      sum += glm::dvec3(sum_panels<double>(piece_from, piece_to, untextured, longest, is_even));
+      return;
+    }
+    texture->for_each_piece(piece_from, piece_to, [&](double from, double to) {
+      sum += sum_panels<glm::dvec3>(
+          from, to, [&](double psi) { return untextured(psi) * texture->at(psi); },
+          [&](double psi) { return std::min(texture->smooth_length(psi), longest(psi)); }, is_even);
+    });
+  };
+  if (shape)
+    shape->for_each_piece(psi_from, psi_to, add_piece);
+  else
+    add_piece(psi_from, psi_to, true);
   return sum;
 }
 

@@ -3,14 +3,15 @@
 #include <array>
 #include <cstddef>
 
+#include "reference/light_shape.h"
 #include "reference/light_texture.h"
 #include "reference/view_ray.h"
 #include "scene/scene.h"
 
 namespace airlight::reference {
 
-/// σ_s I / (D sin α): what the integral over φ is multiplied with, RGB. A light's texture belongs under the
-/// integral.
+/// σ_s I / (D sin α): what the integral over φ is multiplied with, RGB. A light's texture, cone and
+/// range belong under the integral.
 inline glm::dvec3 airlight_scale(const ViewRay& ray, const scene::Light& light, const scene::Medium& medium) {
   return glm::dvec3(medium.sigma_s) * glm::dvec3(light.intensity) / (ray.D * ray.sin_alpha);
 }
@@ -30,8 +31,9 @@ class FogQuadrature {
   void refine(int parts) { parts_ = parts; }
 
   /// The integral over ψ ∈ [`psi_to`, `psi_from`] [1/sr·rad], RGB.
-  /// @param light whose texture belongs under the integral; nullptr for an even light
-  glm::dvec3 integral(double psi_from, double psi_to, const LightAlongRay* light) const;
+  /// @param texture, shape of the light, which belong under the integral; nullptr without
+  glm::dvec3 integral(double psi_from, double psi_to, const LightAlongRay* texture = nullptr,
+                      const LightShape* shape = nullptr) const;
 
   /// Whether the phase function has a lobe that steps in φ may not resolve.
   bool has_narrow_lobe() const;
@@ -40,7 +42,8 @@ class FogQuadrature {
 
  private:
   template <class Value, class Integrand, class Longest>
-  Value sum_panels(double psi_from, double psi_to, const Integrand& f, const Longest& longest) const;
+  Value sum_panels(double psi_from, double psi_to, const Integrand& f, const Longest& longest,
+                   bool is_even) const;
   double optical_depth(double psi) const;
   double integrand(double psi) const;
   double descent(double psi) const;

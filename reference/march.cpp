@@ -10,6 +10,7 @@
 
 #include "reference/fan.h"
 #include "reference/fog_quadrature.h"
+#include "reference/light_shape.h"
 #include "reference/parallel.h"
 #include "reference/phase.h"
 #include "reference/reference.h"
@@ -52,9 +53,10 @@ inline float exp_of_nonpositive(float x) {
 /// @param sigma_t extinction coefficient σ of one channel [1/m]
 /// @param lobe    integrates the steps that it is not smooth over
 /// @param step    of φ [rad]
-/// @param texture the light's, of that channel, for each sample; nullptr without
+/// @param shares  of the light's intensity that its texture, cone and range leave, of that channel, for each
+///                sample; nullptr where that is all of it
 double sum_lit(const ViewRay& ray, const HalfAngles& half, std::uint32_t lit, double sigma_t,
-               const scene::Medium& medium, const FogQuadrature& lobe, double step, const float* texture) {
+               const scene::Medium& medium, const FogQuadrature& lobe, double step, const float* shares) {
   constexpr int k_count = LightRays::k_count;
   const double scale = sigma_t * ray.D * ray.sin_alpha;
   const double offset = sigma_t * (ray.D * ray.cos_alpha - ray.from);
@@ -82,32 +84,36 @@ double sum_lit(const ViewRay& ray, const HalfAngles& half, std::uint32_t lit, do
       for (int i = 0; i < k_count; ++i) {
         const double psi = 2.0 * std::atan2(half.sine[i], half.cosine[i]);
         if ((lit >> i & 1u) && !lobe.lobe_is_smooth(psi, step))
-          value[i] = static_cast<float>(lobe.integral(psi + 0.5 * step, psi - 0.5 * step, nullptr).r / step);
+          value[i] = static_cast<float>(lobe.integral(psi + 0.5 * step, psi - 0.5 * step).r / step);
       }
     }
   }
-  if (texture) {
-    for (int i = 0; i < k_count; ++i) value[i] *= texture[i];
+  if (shares) {
+    for (int i = 0; i < k_count; ++i) value[i] *= shares[i];
   }
   double sum = 0.0;
   for (int i = 0; i < k_count; ++i) sum += static_cast<double>(value[i]);
   return medium.phase == scene::PhaseFunction::isotropic ? sum * phase(medium, 0.0) : sum;
 }
 
-/// What a textured light sends along each of its rays, by channel.
-struct LightColours {
+/// What a light sends along each of its rays, relative to its intensity, by channel.
+struct LightShares {
   float values[3][LightRays::k_count];
 };
 
-LightColours look_up(const LightLookup& texture, const LightRays& rays, std::uint32_t lit) {
-  LightColours colours{};
+/// @param texture, shape the light's; no texture is nullptr
+LightShares look_up(const LightLookup* texture, const LightShape& shape, const LightRays& rays,
+                    const HalfAngles& half, std::uint32_t lit) {
+  LightShares shares{};
   for (int i = 0; i < LightRays::k_count; ++i) {
     if (!(lit >> i & 1u)) continue;
     const glm::dvec3 direction(rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]);
-    const glm::vec3 colour(texture.at(direction));
-    for (int channel = 0; channel < 3; ++channel) colours.values[channel][i] = colour[channel];
+    glm::vec3 share(1.0f);
+    if (texture) share = texture->at(direction);
+    share *= static_cast<float>(shape.at(2.0 * std::atan2(half.sine[i], half.cosine[i])));
+    for (int channel = 0; channel < 3; ++channel) shares.values[channel][i] = share[channel];
   }
-  return colours;
+  return shares;
 }
 
 }  // namespace
@@ -175,6 +181,7 @@ AirlightImage Reference::march_to_point(int samples, RayMode mode, const Progres
   const scene::Medium& medium = state.view.medium;
   const glm::dvec3 sigma_t = glm::dvec3(medium.sigma_s) + glm::dvec3(medium.sigma_a);
   const bool grey = sigma_t.r == sigma_t.g && sigma_t.g == sigma_t.b && !state.light_texture;
+  const bool is_uneven = state.light_texture || state.light.cone || state.light.range;
 
   AirlightImage image;
   image.radiance.resize(state.pixels());
@@ -182,12 +189,13 @@ AirlightImage Reference::march_to_point(int samples, RayMode mode, const Progres
   const auto start = std::chrono::steady_clock::now();
 
   const auto make_worker = [&] {
-    return [&](int y) {
+    return [&, shape = LightShape(state.light)](int y) mutable {
       LightRays rays;
       for (int x = 0; x < state.view.size.x; ++x) {
         const ViewRay ray = state.ray<ViewRay>(x, y);
         if (ray.phi_d == 0.0) continue;  // none of it lies in the medium
         ++marched;
+        if (is_uneven) shape.aim(ray);
         const double step = ray.phi_d / samples;
         const std::array quadrature = {FogQuadrature(ray, sigma_t.r, medium),
                                        FogQuadrature(ray, sigma_t.g, medium),
@@ -199,11 +207,13 @@ AirlightImage Reference::march_to_point(int samples, RayMode mode, const Progres
           const int count = std::min(LightRays::k_count, samples - first);
           const std::uint32_t lit = state.visibility.lit(rays, count, mode);
           if (lit != 0) {
-            LightColours colours;
-            if (state.light_texture) colours = look_up(*state.light_texture, rays, lit);
+            LightShares shares;
+            if (is_uneven)
+              shares = look_up(state.light_texture ? &*state.light_texture : nullptr, shape, rays,
+                               fan.places(), lit);
             for (int channel = 0; channel < (grey ? 1 : 3); ++channel) {
               sum[channel] += sum_lit(ray, fan.places(), lit, sigma_t[channel], medium, quadrature[channel],
-                                      step, state.light_texture ? colours.values[channel] : nullptr);
+                                      step, is_uneven ? shares.values[channel] : nullptr);
             }
           }
           fan.advance();

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "reference/fog_quadrature.h"
+#include "reference/light_shape.h"
 #include "reference/light_texture.h"
 #include "reference/sun_fog.h"
 #include "reference/sun_ray.h"
@@ -20,7 +21,7 @@ class RunIntegrals {
   /// @param refinement             of the quadrature, where there is one (`FogQuadrature::refine`)
   RunIntegrals(const scene::Light& light, const scene::Medium& medium, const LightLookup* texture,
                int refinement = 1)
-      : light_(light), medium_(medium), refinement_(refinement) {
+      : light_(light), medium_(medium), refinement_(refinement), shape_(light) {
     if (texture) texture_.emplace(*texture);
   }
 
@@ -30,13 +31,15 @@ class RunIntegrals {
   template <std::size_t N, class Visit>
   std::array<glm::dvec3, N> radiances(const ViewRay& ray, const Visit& visit) {
     if (texture_) texture_->aim(ray);
+    if (shape_.is_shaped()) shape_.aim(ray);
     const LightAlongRay* texture = texture_ ? &*texture_ : nullptr;
+    const LightShape* shape = shape_.is_shaped() ? &shape_ : nullptr;
     const glm::dvec3 scale = airlight_scale(ray, light_, medium_);
     std::array<glm::dvec3, N> sums = integrate_channels<N>(ray, medium_, scale, [&](FogQuadrature& fog) {
       fog.refine(refinement_);
       std::array<glm::dvec3, N> of_sigma{};
       visit([&](std::size_t sum, double from, double to, double weight) {
-        of_sigma[sum] += weight * fog.integral(from, to, texture);
+        of_sigma[sum] += weight * fog.integral(from, to, texture, shape);
       });
       return of_sigma;
     });
@@ -59,6 +62,7 @@ class RunIntegrals {
   const scene::Medium& medium_;
   int refinement_;
   std::optional<LightAlongRay> texture_;
+  LightShape shape_;
 };
 
 }  // namespace airlight::reference

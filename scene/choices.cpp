@@ -83,12 +83,13 @@ void name_lights(std::vector<Light>& lights) {
 /// The lights that one light's choices make: a new one, or some of those that the scene brings.
 std::vector<Light> choose_light(const Choices& choices, const std::vector<Light>& brought) {
   const FieldInfo &position = field<Light>("light-position"), &intensity = field<Light>("intensity"),
-                  &texture = field<Light>("light-texture"), &sun = field<Light>("sun"),
-                  &irradiance = field<Light>("irradiance");
+                  &texture = field<Light>("light-texture"), &target = field<Light>("spot-target"),
+                  &cone = field<Light>("spot-angles"), &range = field<Light>("range"),
+                  &sun = field<Light>("sun"), &irradiance = field<Light>("irradiance");
   const auto contradiction = [&](const FieldInfo& one, const FieldInfo& other) {
     return choices.error(one, choices.spell(other) + " contradicts it", "give one or the other");
   };
-  const FieldInfo* of_lamp = first_given(choices, {&position, &intensity, &texture});
+  const FieldInfo* of_lamp = first_given(choices, {&position, &intensity, &texture, &target, &cone, &range});
   const FieldInfo* of_sun = first_given(choices, {&sun, &sun_angles(), &irradiance});
   if (of_lamp && of_sun) throw contradiction(*of_lamp, *of_sun);
   if (choices.get(sun) && choices.get(sun_angles())) throw contradiction(sun, sun_angles());

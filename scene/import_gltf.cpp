@@ -4,6 +4,7 @@
 #include <cstring>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -97,6 +98,7 @@ constexpr auto k_rules = std::to_array<Rule>({
     {"extensionsRequired", Kind::strings},
     {"extensionsUsed", Kind::strings},
     {"indices", Kind::index, 0, Kind::object},
+    {"innerConeAngle", Kind::number},
     {"intensity", Kind::number},
     {"light", Kind::index},
     {"lights", Kind::objects},
@@ -107,15 +109,18 @@ constexpr auto k_rules = std::to_array<Rule>({
     {"meshes", Kind::objects},
     {"mode", Kind::index},
     {"nodes", Kind::objects, 0, Kind::indices},
+    {"outerConeAngle", Kind::number},
     {"pbrMetallicRoughness", Kind::object},
     {"perspective", Kind::object},
     {"primitives", Kind::objects},
+    {"range", Kind::number},
     {"rotation", Kind::numbers, 4},
     {"scale", Kind::numbers, 3, Kind::number},
     {"scene", Kind::index},
     {"scenes", Kind::objects},
     {"skin", Kind::index},
     {"sparse", Kind::object},
+    {"spot", Kind::object},
     {"translation", Kind::numbers, 3},
     {"yfov", Kind::number},
 });
@@ -359,7 +364,7 @@ class Importer {
 
       const std::vector<double>& emission = material.emissiveFactor;
       count(std::ranges::any_of(emission, [](double e) { return e != 0.0; }), "light of emissive materials",
-            "only point lights and suns are rendered");
+            "only point lights, spots and suns are rendered");
       count(material.alphaMode == "MASK", "alpha masks of materials", "surfaces are opaque");
       count(material.alphaMode == "BLEND", "transparency of materials", "surfaces are opaque");
       count(material.extensions.contains("KHR_materials_transmission"), "transmission of materials",
@@ -478,9 +483,8 @@ class Importer {
     if (!reference.Has("light")) throw error(where, fmt::format("{} names no light", k_lights));
     const int index = reference.Get("light").GetNumberAsInt();
     const tinygltf::Light& source = at(model_.lights, index, "light", where);
-    if (source.type != "point" && source.type != "directional") {
-      count(1, source.type == "spot" ? "spot lights" : "lights of unknown type",
-            "only point lights and suns are rendered");
+    if (source.type != "point" && source.type != "spot" && source.type != "directional") {
+      count(1, "lights of unknown type", "only point lights, spots and suns are rendered");
       return;
     }
 
@@ -492,19 +496,34 @@ class Importer {
       if (!(std::isfinite(power[i]) && power[i] >= 0.0f))
         throw error(where, fmt::format("the light's intensity {:g} is not finite and non-negative",
                                        color[i] * source.intensity));
-    if (source.type == "point") {
-      count(source.range > 0.0, "ranges of lights", "light reaches without limit");
+    const auto set = [&](std::string_view name, const FieldValue& value, std::string_view what) {
+      if (const auto wrong = field<Light>(name).set(light, value))
+        throw error(where, fmt::format("the light's {}: {}", what, wrong->problem));
+    };
+    // It shines along the node's −Z.
+    const glm::dvec3 backward(world_from_node[2]);
+    if (source.type != "point")
+      if (const auto wrong = field<Light>("sun").problem(backward))
+        throw error(where, "the light's direction: " + wrong->problem);
+    if (source.type == "directional") {
+      light.kind = LightKind::sun;
+      light.towards = unit(backward);
+      light.irradiance = power;
+    } else {
       light.position = glm::dvec3(world_from_node[3]);
       for (int i = 0; i < 3; ++i)
         if (!std::isfinite(light.position[i])) throw error(where, "the light's position is not finite");
       light.intensity = power;
-    } else {
-      light.kind = LightKind::sun;
-      // It shines along the node's −Z.
-      const glm::dvec3 towards(world_from_node[2]);
-      if (const auto wrong = field<Light>("sun").set(light, towards))
-        throw error(where, "the light's direction: " + wrong->problem);
-      light.irradiance = power;
+      // A file without a range looks like one that says 0, as some do to mean none.
+      if (source.range != 0.0) set("range", source.range, "range");
+    }
+    if (source.type == "spot") {
+      light.cone.emplace().axis = -unit(backward);
+      // Files are in single precision, where a right angle is a little more than one.
+      const double outer = source.spot.outerConeAngle, right_angle = 0.5 * std::numbers::pi;
+      const bool is_half_space = static_cast<float>(outer) == static_cast<float>(right_angle);
+      set("spot-angles",
+          glm::degrees(glm::dvec2(source.spot.innerConeAngle, is_half_space ? right_angle : outer)), "cone");
     }
     scene_.lights.push_back(light);
   }

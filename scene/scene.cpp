@@ -46,6 +46,9 @@ void validate_sun(const std::string& where, const Light& sun, const Medium& medi
   assert(std::abs(glm::length(sun.towards) - 1.0) < 1e-9);
   if (const auto wrong = sun.texture ? field<Light>("light-texture").lack(sun) : std::nullopt)
     throw Error(ExitCode::bad_file, where, wrong->problem, wrong->remedy);
+  if (sun.cone || sun.range)
+    throw Error(ExitCode::bad_file, where, "it is a sun, which has no cone and no range",
+                "spots and ranges are for lamps");
   if (medium.top && sun.towards.y < k_lowest_sun)
     throw Error(ExitCode::usage, where,
                 "a sun that is at or below the horizon never reaches a medium with a top",
@@ -62,6 +65,9 @@ void validate(const Light& light, const View& view) {
   const std::string where = light.name.empty() ? "light" : fmt::format("light '{}'", light.name);
   check_fields(ExitCode::bad_file, where, light);
   if (is_sun(light)) return validate_sun(where, light, view.medium);
+  if (light.cone && !(std::abs(glm::length(light.cone->axis) - 1.0) < 1e-9))
+    throw Error(ExitCode::bad_file, where, "it is a spot whose axis is no direction of unit length",
+                "aim it at a point that is not where it stands");
   if (glm::distance(light.position, eye) < k_shortest_distance)
     throw Error(ExitCode::bad_file, where, "it is at the eye, where the airlight is infinite",
                 "move the light or the camera");

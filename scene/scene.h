@@ -190,10 +190,11 @@ struct View {
 };
 
 /// Checks what every method relies on.
-/// @throws Error (bad_file) when there is no light, a lamp coincides with the eye, a sun is textured, or a
-/// value of the view is out of its domain (not finite, negative intensity or coefficient, |g| ≥ 1, a weight
-/// outside [0, 1]); (usage) as `camera_frame`, where fog is so bright that single precision could overflow,
-/// and where the medium has a top and a sun does not stand above the horizon.
+/// @throws Error (bad_file) when there is no light, a lamp coincides with the eye, a spot has no axis, a sun
+/// is textured or has a cone or a range, or a value of the view is out of its domain (not finite, negative
+/// intensity or coefficient, |g| ≥ 1, a weight outside [0, 1]); (usage) as `camera_frame`, where fog is so
+/// bright that single precision could overflow, and where the medium has a top and a sun does not stand above
+/// the horizon.
 void validate(const View& view);
 
 /// Gives every triangle the same reflectance.

@@ -65,6 +65,7 @@ class Table {
       case FieldKind::direction:
         return vector_of<glm::dvec3>(key, *node, "it must be three numbers, as in [0, 1, 0]");
       case FieldKind::angles:
+      case FieldKind::cone:
         return vector_of<glm::dvec2>(key, *node, "it must be two numbers, as in [30, 45]");
       case FieldKind::colour: {
         constexpr const char* k_wanted = "it must be a number or three, as in [1, 0.8, 0.6]";
@@ -159,7 +160,7 @@ class ShotChoices : public Choices {
     for (const FieldInfo* field : every_field()) {
       if (field->kind == FieldKind::size) continue;  // the image's, which a shot leaves open
       const auto table = tables_.find(field->group);
-      if (table == tables_.end()) continue;
+      if (table == tables_.end() || are_angles_of_another(*field)) continue;
       if (auto value = table->second->value(*field, reader)) add(*field, std::move(*value));
     }
   }
@@ -175,6 +176,15 @@ class ShotChoices : public Choices {
   }
 
  private:
+  /// In a table of [[light]], where keys of lamps and suns stand together, angles are a sun's beside its
+  /// irradiance, else a spot's.
+  bool are_angles_of_another(const FieldInfo& field) const {
+    const auto lamp = tables_.find("light"), sun = tables_.find("sun");
+    if (lamp == tables_.end() || sun == tables_.end() || lamp->second != sun->second) return false;
+    const bool is_sun = sun->second->has(airlight::scene::field<Light>("irradiance").key());
+    return (is_sun && field.name == "spot-angles") || (!is_sun && field.name == sun_angles().name);
+  }
+
   Tables tables_;
 };
 

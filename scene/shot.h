@@ -24,6 +24,9 @@ namespace airlight::scene {
 ///     position = [0, 1.85, 0]
 ///     intensity = [1, 0.86, 0.68]
 ///     texture = "lantern.exr"    # what it radiates by direction, relative to the shot
+///     target = [0, 0, 0]         # makes it a spot, which shines there [m]
+///     angles = [20, 30]          # inner and outer half-angle of its cone [degrees]
+///     range = 10                 # where its light ends [m]
 ///     [sun]                      # where [light] would stand
 ///     towards = [0.8, 0.5, 0.3]  # its direction, of any length; or:
 ///     angles = [70, 30]          # azimuth from +Z towards +X, elevation above the horizon [degrees]

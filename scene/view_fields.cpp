@@ -31,11 +31,18 @@ constexpr FieldRange k_reflectance = {.lower = 0, .upper = 1, .why = "a surface 
 constexpr FieldRange k_cosine = {.lower = -1, .upper = 1, .is_open = true};
 constexpr FieldRange k_half_turn = {.lower = 0, .upper = 180, .is_open = true};
 constexpr FieldRange k_elevation = {.lower = -90, .upper = 90};
+constexpr FieldRange k_half_angle = {.lower = 0, .upper = 90};
 constexpr FieldRange k_place = {.lower = -k_largest_coordinate, .upper = k_largest_coordinate};
 
 /// A single-precision value with the digits it has, not those of its conversion to double.
 double digits(float value) {
   return std::isfinite(value) ? std::stod(fmt::format("{}", value)) : static_cast<double>(value);
+}
+
+/// An angle [rad] with no more digits in degrees than its conversion keeps.
+double degrees_of(double radians) {
+  const double degrees = glm::degrees(radians);
+  return std::isfinite(degrees) ? std::stod(fmt::format("{:.15g}", degrees)) : degrees;
 }
 
 void assign(double& to, const FieldValue& value) {
@@ -103,6 +110,37 @@ void set_direction(Light& light, const FieldValue& value) {
   light.towards = unit(std::get<glm::dvec3>(value));
 }
 
+std::optional<FieldProblem> lack_of_cone(const Light& light) {
+  if (auto wrong = lack_in_sun(light, "cone", "spots are lamps")) return wrong;
+  if (light.cone) return std::nullopt;
+  return FieldProblem{"the light is no spot, which alone has a cone", "aim it at a target"};
+}
+
+/// A target at the lamp itself leaves an axis that is none, for `validate` to refuse.
+void set_spot_target(Light& light, const FieldValue& value) {
+  const glm::dvec3 way = std::get<glm::dvec3>(value) - light.position;
+  if (!light.cone) light.cone.emplace();
+  light.cone->axis = way == glm::dvec3(0.0) ? way : unit(way);
+}
+
+/// A point so far along the axis that its digits hold those of the axis.
+std::optional<FieldValue> spot_target_of(const Light& light) {
+  if (!light.cone) return std::nullopt;
+  const glm::dvec3 place = glm::abs(light.position);
+  return light.position + std::max({1.0, place.x, place.y, place.z}) * light.cone->axis;
+}
+
+void set_spot_angles(Light& light, const FieldValue& value) {
+  const glm::dvec2 degrees = std::get<glm::dvec2>(value);
+  light.cone->inner = glm::radians(degrees.x);
+  light.cone->outer = glm::radians(degrees.y);
+}
+
+std::optional<FieldValue> spot_angles_of(const Light& light) {
+  if (!light.cone) return std::nullopt;
+  return glm::dvec2(degrees_of(light.cone->inner), degrees_of(light.cone->outer));
+}
+
 std::optional<FieldProblem> lack_of_g(const Medium& medium) {
   if (has_g(medium.phase)) return std::nullopt;
   return FieldProblem{fmt::format("the phase function {} has no g", phase_name(medium.phase)),
@@ -167,6 +205,40 @@ std::span<const Field<Light>> fields() {
            "+Y at the top, +Z in the middle, +X to the left of it",
            "", "for vsv it needs integral=riemann"},
           [](const Light& light) { return lack_in_sun(light, "texture", "textured lights are lamps"); }),
+      Field<Light>{{.group = "light",
+                    .name = "spot-target",
+                    .kind = vector,
+                    .placeholder = "X,Y,Z",
+                    .label = "aimed at",
+                    .meaning = "a point that the lamp shines at, which makes it a spot",
+                    .unit = "m",
+                    .usual = "the scene's; a lamp that has none shines in all directions",
+                    .own_key = "target"},
+                   set_spot_target,
+                   spot_target_of,
+                   [](const Light& light) { return lack_in_sun(light, "target", "spots are lamps"); }},
+      Field<Light>{
+          {.group = "light",
+           .name = "spot-angles",
+           .kind = cone,
+           .placeholder = "INNER,OUTER",
+           .label = "half-angles",
+           .meaning =
+               "half-angles of a spot's cone, up to 90: all light within the inner one, none beyond the "
+               "outer one; a step where both are equal",
+           .unit = "degrees",
+           .note = "needs --spot-target, or a spot of the scene's",
+           .usual = "the scene's, else 0,45",
+           .range = k_half_angle,
+           .own_key = "angles"},
+          set_spot_angles,
+          spot_angles_of,
+          lack_of_cone},
+      member_field<&Light::range>(
+          {"light", "range", number, "M", "range",
+           "distance from a lamp where its light ends: at r it is multiplied by 1 - (r/range)^4", "m", "",
+           "the scene's; without, light reaches without limit", k_positive},
+          [](const Light& light) { return lack_in_sun(light, "range", "its light has no end"); }),
       Field<Light>{
           {.group = "sun",
            .name = "sun",
@@ -364,6 +436,21 @@ std::optional<FieldProblem> FieldInfo::problem(const FieldValue& value) const {
                              range.upper, unit));
   }
 
+  if (kind == cone) {
+    const auto half_angles = std::get<glm::dvec2>(value);
+    for (double angle : {half_angles.x, half_angles.y}) {
+      if (!std::isfinite(angle)) return wrong(fmt::format("{} is not finite", angle));
+      if (!(angle >= range.lower && angle <= range.upper))
+        return wrong(fmt::format("the half-angle {} is not between {} and {} {}", angle, range.lower,
+                                 range.upper, unit));
+    }
+    if (half_angles.x > half_angles.y)
+      return wrong(fmt::format("the inner half-angle {} is more than the outer one, {}", half_angles.x,
+                               half_angles.y));
+    if (half_angles.y == 0.0) return wrong("a cone of half-angle 0 lets no light through");
+    return std::nullopt;
+  }
+
   const glm::dvec3 parts = kind == number ? glm::dvec3(std::get<double>(value)) : std::get<glm::dvec3>(value);
   for (int i = 0; i < 3; ++i) {
     if (!std::isfinite(parts[i])) return wrong(fmt::format("{} is not finite", parts[i]));
@@ -395,6 +482,7 @@ FieldValue value_of_text(const FieldInfo& field, const std::string& where, std::
     case direction:
       return parse_vector(where, text);
     case angles:
+    case cone:
       return parse_pair(where, text);
     case colour:
       return parse_colour(where, text);

@@ -26,10 +26,11 @@ enum class FieldKind {
   vector,     ///< glm::dvec3
   direction,  ///< glm::dvec3 of any length but 0; only its direction is kept
   angles,     ///< azimuth and elevation of a direction [degrees]: glm::dvec2
-  colour,     ///< RGB, none negative, within single precision: glm::dvec3; one number stands for all three
-  word,       ///< one of the field's words, or any where it lists none: std::string
-  file,       ///< a light texture, written as the name of its file
-  size,       ///< width and height, both at least 1: glm::ivec2
+  cone,    ///< inner and outer half-angle of a spot, 0 ≤ inner ≤ outer, outer > 0 [degrees]: glm::dvec2
+  colour,  ///< RGB, none negative, within single precision: glm::dvec3; one number stands for all three
+  word,    ///< one of the field's words, or any where it lists none: std::string
+  file,    ///< a light texture, written as the name of its file
+  size,    ///< width and height, both at least 1: glm::ivec2
 };
 
 using FieldValue = std::variant<double, glm::dvec2, glm::dvec3, std::string, glm::ivec2,

@@ -33,6 +33,7 @@ void main() {
     float path = max(seen_part.y - seen_part.x, 0.0) + light_path(medium, light, point);
     vec3 albedo = texelFetch(albedos, int(texelFetch(material_of_triangle, int(seen) - 1).r)).rgb;
     vec3 colour = k_light_textured != 0u ? light_colour(light_texture, -way) : vec3(1.0);
+    colour *= cone_share(light, -way / max(r, 1e-30)) * range_share(light, r);
     // A sun's `way` is of unit length.
     radiance.rgb += visibility * max(cosine, 0.0) * albedo / k_pi * light.intensity / max(r * r, 1e-20) * colour *
                 exp(-medium.sigma_t * path);

@@ -282,6 +282,17 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{{"render", "nave", "-o", "x.exr", "--intensity", "1"},
                "--intensity: the light is a sun, which has no intensity; give its irradiance"},
         Misuse{{"--sun", "0,0,0", "--irradiance", "1"}, "--sun: it has no length"},
+        Misuse{{"--spot-angles", "20,30"}, "--spot-angles: the light is no spot"},
+        Misuse{{"--spot-target", "0,0,0", "--spot-angles", "30,20"}, "--spot-angles: the inner half-angle"},
+        Misuse{{"--spot-target", "0,0,0", "--spot-angles", "30"}, "--spot-angles: '30' is not two"},
+        Misuse{{"--spot-target", "0,0"}, "--spot-target: '0,0' is not three"},
+        Misuse{{"--range", "0"}, "--range: 0 is not positive"},
+        Misuse{{"--sun", "0,1,0", "--irradiance", "1", "--spot-target", "0,0,0"},
+               "--spot-target: --sun contradicts it"},
+        Misuse{{"render", "nave", "-o", "x.exr", "--spot-target", "0,0,0"},
+               "--spot-target: the light is a sun, which has no target"},
+        Misuse{{"render", "nave", "-o", "x.exr", "--range", "5"},
+               "--range: the light is a sun, which has no range"},
         Misuse{{"--sun", "0,1", "--irradiance", "1"}, "--sun: '0,1' is not three finite numbers"},
         Misuse{{"--sun-angles", "0,91", "--irradiance", "1"}, "--sun-angles: the elevation 91"},
         Misuse{{"--sun-angles", "40", "--irradiance", "1"}, "--sun-angles: '40' is not two"},
@@ -482,6 +493,32 @@ TEST_F(Render, LightAndMediumOptionsScaleTheAirlight) {
   EXPECT_LT(green({"--intensity", "1", "--sigma-s", "0.001", "--sigma-a", "0.1"}), 0.9 * plain);
   EXPECT_NE(green({"--intensity", "1", "--sigma-s", "0.001", "--phase", "rayleigh"}), plain);
   EXPECT_NE(green({"--light-position", "1,1,1", "--intensity", "1", "--sigma-s", "0.001"}), plain);
+}
+
+TEST_F(Render, ASpotLightsWhatItIsAimedAt) {
+  const auto image_of = [&](Words words) {
+    words.insert(words.end(), {"--volume", "reference", "--surface", "none"});
+    return render(words);
+  };
+  const Image lamp = image_of({});
+  const Image image = image_of({"--spot-angles", "20,30", "--spot-target", "-1,0.5,0", "--range", "3",
+                                "--light-position", "0,1.85,0", "--intensity", "1,0.86,0.68"});
+  for (const char* channel : {"R", "airlight.R"}) {
+    EXPECT_LT(mean(image.channels.at(channel)), 0.3 * mean(lamp.channels.at(channel)));
+    EXPECT_GT(mean(image.channels.at(channel)), 0.01 * mean(lamp.channels.at(channel)));
+  }
+  EXPECT_EQ(image.channels.at("surface.Y"), lamp.channels.at("surface.Y")) << "it is what occluders leave";
+  EXPECT_EQ(image.metadata.at("airlight.spot-angles"), "20,30");
+  EXPECT_EQ(image.metadata.at("airlight.range"), "3");
+  const auto at = [&](const char* option) { return image.metadata.at(fmt::format("airlight.{}", option)); };
+  const Image again =
+      image_of({"--light-position", at("light-position"), "--intensity", at("intensity"), "--spot-target",
+                at("spot-target"), "--spot-angles", at("spot-angles"), "--range", at("range")});
+  EXPECT_EQ(again.channels, image.channels);
+
+  std::ofstream(file("spot.toml")) << "scene = 'cornell'\n[light]\ntarget = [-1, 0.5, 0]\nangles = [20, "
+                                      "30]\nrange = 3\n";
+  EXPECT_EQ(image_of({"spot.toml"}).channels.at("airlight.R"), image.channels.at("airlight.R"));
 }
 
 TEST_F(Render, CameraOptionsMoveTheView) {
@@ -821,6 +858,8 @@ TEST_F(Compare, ResultsFollowTheirSchema) {
   scene::View whole, sunny;
   whole.lights[0].texture =
       std::make_shared<const scene::LightTexture>("", glm::ivec2(1), std::vector<glm::vec3>(1));
+  whole.lights[0].cone.emplace();
+  whole.lights[0].range = 1;
   whole.medium = {.phase = scene::PhaseFunction::hoffman_preetham, .top = 1.0};
   sunny.lights = {scene::sun("", {0, 1, 0}, glm::vec3(1.0f))};
   const Json& light = view.at("lights").at("items").at("properties");

@@ -283,14 +283,18 @@ TEST(Frame, RemembersNothingOfTheFramesBefore) {
   }
 }
 
-TEST(Frame, ShadesALambertSurfaceByItsClosedForm) {
+/// Compares a floor that the light shines on, without airlight, with its closed form.
+/// @param share      of the light's intensity at a point relative to it [m]
+/// @param is_unsure  whether rounding may decide over that point
+void expect_shaded_floor(const scene::Light& light, const std::function<double(glm::dvec3)>& share,
+                         const std::function<bool(glm::dvec3)>& is_unsure) {
   scene::Geometry floor;
   tests::add_quad(floor, {-50, 0, -50}, {0, 0, 100}, {100, 0, 0});
   floor.materials[0].albedo = {0.8f, 0.5f, 0.2f};
   scene::View view;
   view.camera.eye = {0.5, 2, 3};
   view.camera.target = {0, 0, 0};
-  view.lights = {scene::point_light("", {1, 1.5, -1}, {3, 2, 1})};
+  view.lights = {light};
   view.medium.sigma_s = {0.1f, 0.2f, 0.3f};
   view.medium.sigma_a = {0.05f, 0.0f, 0.1f};
   view.size = {16, 16};
@@ -300,7 +304,6 @@ TEST(Frame, ShadesALambertSurfaceByItsClosedForm) {
   const FrameImages images = render(frame, view, no_shadow, no_airlight);
 
   const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
-  const glm::dvec3 light = view.lights[0].position;
   int seen = 0;
   for (int y = 0; y < 16; ++y) {
     for (int x = 0; x < 16; ++x) {
@@ -308,21 +311,53 @@ TEST(Frame, ShadesALambertSurfaceByItsClosedForm) {
       const double d = -camera.eye.y / ray.y;
       if (d <= 0 || d > 40) continue;
       ++seen;
-      const glm::dvec3 to_light = light - (camera.eye + d * ray);
+      const glm::dvec3 to_light = light.position - (camera.eye + d * ray);
+      if (is_unsure(-to_light)) continue;
       const double r = glm::length(to_light);
       for (int channel = 0; channel < 3; ++channel) {
         const double sigma_t =
             static_cast<double>(view.medium.sigma_s[channel] + view.medium.sigma_a[channel]);
         const double expected = static_cast<double>(floor.materials[0].albedo[channel]) / std::numbers::pi *
-                                static_cast<double>(view.lights[0].intensity[channel]) * (to_light.y / r) /
-                                (r * r) * std::exp(-sigma_t * (r + d));
+                                static_cast<double>(light.intensity[channel]) * (to_light.y / r) / (r * r) *
+                                std::exp(-sigma_t * (r + d));
         // Single precision, the exponential's error growing with its exponent.
         EXPECT_NEAR(static_cast<double>(images.radiance[static_cast<std::size_t>(16 * y + x)][channel]),
-                    expected, 1e-5 * expected);
+                    share(-to_light) * expected, 1e-5 * expected);
       }
     }
   }
   EXPECT_GT(seen, 100);
+}
+
+const scene::Light k_lamp = scene::point_light("", {1, 1.5, -1}, {3, 2, 1});
+
+TEST(Frame, ShadesALambertSurfaceByItsClosedForm) {
+  expect_shaded_floor(
+      k_lamp, [](glm::dvec3) { return 1.0; }, [](glm::dvec3) { return false; });
+}
+
+TEST(Frame, ShadesASurfaceByTheLightsConeAndRange) {
+  const glm::dvec3 axis = glm::normalize(glm::dvec3(-1, -1.5, 1));
+  for (double inner : {0.3, 0.6}) {
+    scene::Light spot = k_lamp;
+    spot.cone = {.axis = axis, .inner = inner, .outer = 0.6};
+    spot.range = 3.0;
+    int dark = 0, lit = 0;
+    const auto cosine = [&](glm::dvec3 point) { return glm::dot(axis, glm::normalize(point)); };
+    expect_shaded_floor(
+        spot,
+        [&](glm::dvec3 point) {
+          const double inside = cosine(point) - std::cos(0.6), width = std::cos(inner) - std::cos(0.6);
+          const double ramp =
+              inner == 0.6 ? (inside >= 0.0 ? 1.0 : 0.0) : std::clamp(inside / width, 0.0, 1.0);
+          const double share = ramp * ramp * std::max(1.0 - std::pow(glm::length(point) / 3.0, 4.0), 0.0);
+          ++(share > 0.0 ? lit : dark);
+          return share;
+        },
+        [&](glm::dvec3 point) { return inner == 0.6 && std::abs(cosine(point) - std::cos(0.6)) < 1e-5; });
+    EXPECT_GT(lit, 50);
+    EXPECT_GT(dark, 50);
+  }
 }
 
 TEST(Frame, DrawsAShadowMapOnlyForWhoAsks) {

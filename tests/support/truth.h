@@ -26,6 +26,8 @@ struct CyclesImage {
   std::optional<double> fog_top = {};
   scene::LightKind kind = scene::LightKind::point;
   std::vector<scene::Light> more_lights = {};
+  std::optional<glm::dvec3> spot_target = {};
+  double spot_degrees = 0;  ///< half-angle of the spot's cone, which ends in a step
 
   std::filesystem::path image_file() const { return shared_file("truth/" + std::string(image) + ".exr"); }
   std::filesystem::path scene_file() const { return shared_file("scenes/" + std::string(scene) + ".glb"); }
@@ -38,6 +40,10 @@ struct CyclesImage {
     view.lights[0] = kind == scene::LightKind::sun ? scene::sun("", light, glm::vec3(intensity))
                                                    : scene::point_light("", light, glm::vec3(intensity));
     view.lights.insert(view.lights.end(), more_lights.begin(), more_lights.end());
+    if (spot_target)
+      view.lights[0].cone = {.axis = glm::normalize(*spot_target - light),
+                             .inner = glm::radians(spot_degrees),
+                             .outer = glm::radians(spot_degrees)};
     view.medium.sigma_s = glm::vec3(sigma_s);
     view.medium.sigma_a = glm::vec3(sigma_a);
     if (g != 0) view.medium.phase = scene::PhaseFunction::henyey_greenstein;
@@ -65,6 +71,8 @@ inline const CyclesImage k_cycles_sun_airlight[] = {
     {"maple_sun_airlight", "maple_198k", {-2, 2, 11}, {0.5, 3.8, 0}, 50, {0.35, 0.45, -1}, 10, 0.06f, 0, 0.5f, 0, 12, scene::LightKind::sun},
     {"sponza_sun_airlight", "sponza_262k", {-12, 3, -0.5}, {0, 5, 0}, 60, {0.35, 1, 0.15}, 10, 0.04f, 0.01f, 0, 0, 16, scene::LightKind::sun},
 };
+inline const CyclesImage k_cycles_spot_airlight =
+    {"fence_spot_airlight", "victorian_fence_19k", {0.3, 0.5, 3}, {0, 0.4, 0}, 45, {-0.2, 0.7, -1.0}, 8, 0.25f, 0, 0, 0, {}, scene::LightKind::point, glm::dvec3(0.4, 0.4, 1), 30};
 inline const CyclesImage k_cycles_sun_full =
     {"fence_sun_full", "victorian_fence_19k", {0.3, 0.5, 3}, {0, 0.4, 0}, 45, {-0.5, 0.6, 1}, 10, 0.25f, 0, 0, 0.5f, 4, scene::LightKind::sun};
 inline const CyclesImage k_cycles_three_full =

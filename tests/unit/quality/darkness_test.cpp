@@ -1,5 +1,7 @@
 #include "quality/darkness.h"
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -48,6 +50,36 @@ TEST(WhyBlack, ALampIsDimmedByWhatALayerHoldsOfThePath) {
   EXPECT_THAT(why_black(sphere(), view), HasSubstr("is shorter than 40 m in the medium"));
   view.medium.top = 0.0;
   EXPECT_EQ(why_black(sphere(), view), k_unknown);
+}
+
+constexpr const char* k_out_of_reach = "nothing that is seen lies within the light's cone and range";
+
+TEST(WhyBlack, TellsOfARangeThatEndsBeforeWhatIsSeen) {
+  scene::View view = view_of(scene::point_light("", {0, 0, 8}, glm::vec3(1.0f)));  // behind the eye
+  view.lights[0].range = 2.9;
+  EXPECT_EQ(why_black(sphere(), view), k_out_of_reach);
+  view.lights[0].range = 3.1;
+  EXPECT_EQ(why_black(sphere(), view), k_unknown);
+  // Above the image's upper edge, which rises by half of 45 degrees.
+  view.lights[0].position = {0, 10, 0};
+  const double to_edge = 10 * std::cos(glm::radians(22.5)) - 5 * std::sin(glm::radians(22.5));
+  view.lights[0].range = to_edge - 0.01;
+  EXPECT_EQ(why_black(sphere(), view), k_out_of_reach);
+  view.lights[0].range = to_edge + 0.01;
+  EXPECT_EQ(why_black(sphere(), view), k_unknown);
+}
+
+TEST(WhyBlack, TellsOfASpotThatLooksAway) {
+  const auto why = [](glm::dvec3 position, glm::dvec3 axis, double half_angle) {
+    scene::View view = view_of(scene::point_light("", position, glm::vec3(1.0f)));
+    view.lights[0].cone = {.axis = glm::normalize(axis), .outer = glm::radians(half_angle)};
+    return why_black(sphere(), view);
+  };
+  EXPECT_EQ(why({0, 0, 6}, {0, 0, 1}, 90), k_out_of_reach) << "behind the eye";
+  EXPECT_EQ(why({0, 0, 4}, {0, 0, -1}, 90), k_unknown) << "its back to the eye";
+  EXPECT_EQ(why({0, 20, 0}, {0, 1, 0}, 60), k_out_of_reach) << "above the image, upwards";
+  EXPECT_EQ(why({0, 20, 0}, {0, 1, -3}, 60), k_unknown) << "far off it lights what is seen";
+  EXPECT_EQ(why({0, 20, 0}, {0, -1, 0}, 60), k_unknown);
 }
 
 TEST(WhyBlack, TellsOfAClosedPartThatHoldsTheEyeUnderASun) {

@@ -94,6 +94,8 @@ TEST_F(Cache, TellsApartWhateverATruthDependsOn) {
     view_.lights[0].texture =
         std::make_shared<scene::LightTexture>("t", glm::ivec2(1, 1), std::vector<glm::vec3>{glm::vec3(0.5f)});
   });
+  expect_new("cone", [&] { view_.lights[0].cone.emplace(); });
+  expect_new("range", [&] { view_.lights[0].range = 100; });
   SharedReference refined(geometry_, view_, {}, folder_);
   refined.exact(0, 2);
   EXPECT_EQ(files(), before + 1) << "refinement";

@@ -255,7 +255,7 @@ std::vector<glm::vec3> without_hierarchy(const scene::Geometry& geometry, const 
       shadows.trace(ray, occluders);
       FogQuadrature fog(ray, static_cast<double>(view.medium.sigma_s.x), view.medium);
       glm::dvec3 sum(0.0);
-      for (const auto& run : shadows.lit_runs()) sum += fog.integral(run.from, run.to, nullptr);
+      for (const auto& run : shadows.lit_runs()) sum += fog.integral(run.from, run.to);
       image.push_back(glm::vec3(static_cast<double>(view.medium.sigma_s.x) / (ray.D * ray.sin_alpha) * sum));
     }
   }

@@ -17,8 +17,8 @@ namespace airlight::reference {
 namespace {
 
 using airlight::tests::k_cycles_airlight, airlight::tests::k_cycles_full,
-    airlight::tests::k_cycles_sun_airlight, airlight::tests::k_cycles_sun_full, airlight::tests::mean,
-    airlight::tests::percentile;
+    airlight::tests::k_cycles_spot_airlight, airlight::tests::k_cycles_sun_airlight,
+    airlight::tests::k_cycles_sun_full, airlight::tests::mean, airlight::tests::percentile;
 using Truth = airlight::tests::CyclesImage;
 
 Reference make_reference(const Truth& truth) {
@@ -62,6 +62,7 @@ std::string name(const testing::TestParamInfo<Truth>& test) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cycles, AirlightTruth, testing::ValuesIn(k_cycles_airlight), name);
+INSTANTIATE_TEST_SUITE_P(CyclesSpot, AirlightTruth, testing::Values(k_cycles_spot_airlight), name);
 INSTANTIATE_TEST_SUITE_P(CyclesSun, AirlightTruth, testing::ValuesIn(k_cycles_sun_airlight), name);
 
 class SurfaceTruth : public testing::TestWithParam<Truth> {};

@@ -577,6 +577,57 @@ TEST_F(ImportGltf, ReadsDirectionalLightsAsSuns) {
   EXPECT_EQ(plain.lights.at(0).irradiance, V(1.0f));
 }
 
+TEST_F(ImportGltf, ReadsSpots) {
+  // Turned by a quarter about X, −Z points up.
+  const json node = {{"translation", {1, 2, 3}}, {"rotation", {std::sqrt(0.5), 0, 0, std::sqrt(0.5)}}};
+  const json cone = {{"innerConeAngle", 0.2}, {"outerConeAngle", 0.4}};
+  const Scene scene =
+      load(with_light({{"type", "spot"}, {"spot", cone}, {"intensity", 20}, {"range", 7.5}}, node));
+  ASSERT_EQ(scene.lights.size(), 1u);
+  const Light& spot = scene.lights[0];
+  EXPECT_FALSE(is_sun(spot));
+  expect_near(spot.position, {1, 2, 3});
+  EXPECT_EQ(spot.intensity, V(20.0f));
+  ASSERT_TRUE(spot.cone);
+  EXPECT_NEAR(glm::distance(spot.cone->axis, {0, 1, 0}), 0.0, 1e-15);
+  EXPECT_NEAR(spot.cone->inner, 0.2, 1e-15);
+  EXPECT_NEAR(spot.cone->outer, 0.4, 1e-15);
+  EXPECT_EQ(spot.range, 7.5);
+  EXPECT_THAT(scene.report.warnings, IsEmpty());
+
+  const Light plain = load(with_light({{"type", "spot"}, {"spot", json::object()}})).lights.at(0);
+  ASSERT_TRUE(plain.cone);
+  EXPECT_EQ(plain.cone->axis, glm::dvec3(0, 0, -1));
+  EXPECT_EQ(plain.cone->inner, 0.0);
+  EXPECT_NEAR(plain.cone->outer, std::atan(1.0), 1e-9);
+  EXPECT_FALSE(plain.range);
+
+  // What single precision makes of a right angle is more than one.
+  const json wide = {{"outerConeAngle", 1.5707964}};
+  EXPECT_EQ(load(with_light({{"type", "spot"}, {"spot", wide}})).lights.at(0).cone->outer,
+            2 * std::atan(1.0));
+}
+
+TEST_F(ImportGltf, ReadsRangesOfLamps) {
+  EXPECT_EQ(load(with_light({{"type", "point"}, {"range", 5}})).lights.at(0).range, 5.0);
+  EXPECT_FALSE(load(with_light({{"type", "point"}, {"range", 0}})).lights.at(0).range);
+  EXPECT_FALSE(load(with_light({{"type", "directional"}, {"range", 5}})).lights.at(0).range);
+  expect_error(with_light({{"type", "point"}, {"range", -5}}),
+               "node 1: the light's range: -5 is not positive");
+  expect_error(with_light({{"type", "point"}, {"range", "far"}}), "/range: glTF does not allow");
+}
+
+TEST_F(ImportGltf, RefusesBrokenSpots) {
+  const auto spot = [](const json& cone) { return with_light({{"type", "spot"}, {"spot", cone}}); };
+  expect_error(spot({{"outerConeAngle", 1.6}}), "node 1: the light's cone: the half-angle 91.6");
+  expect_error(spot({{"innerConeAngle", 1}, {"outerConeAngle", 0.5}}), "is more than the outer one");
+  expect_error(spot({{"innerConeAngle", -0.1}}), "the light's cone: the half-angle -5.7");
+  expect_error(spot({{"innerConeAngle", "wide"}}), "/spot/innerConeAngle: glTF does not allow");
+  expect_error(with_light({{"type", "spot"}, {"spot", 1}}), "/spot: glTF does not allow");
+  expect_error(with_light({{"type", "spot"}, {"spot", json::object()}}, {{"scale", {1, 1, 0}}}),
+               "node 1: the light's direction: it has no length");
+}
+
 TEST_F(ImportGltf, RefusesBrokenLights) {
   expect_error(with_light({{"type", "directional"}}, {{"scale", {1, 1, 0}}}),
                "node 1: the light's direction: it has no length");
@@ -609,9 +660,7 @@ TEST_F(ImportGltf, WarnsOfWhatItLeavesOutWithCounts) {
     document["materials"] = json::array({std::move(material)});
     return document;
   };
-  expect_warning("spot lights ignored (1)", with_light({{"type", "spot"}, {"spot", json::object()}}));
   expect_warning("lights of unknown type ignored (1)", with_light({{"type", "laser"}}));
-  expect_warning("ranges of lights ignored (1)", with_light({{"type", "point"}, {"range", 5}}));
   expect_warning("orthographic cameras ignored (1)",
                  with_camera({{"type", "orthographic"},
                               {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"zfar", 2}, {"znear", 1}}}}));
@@ -643,10 +692,11 @@ TEST_F(ImportGltf, WarnsOfWhatItLeavesOutWithCounts) {
 }
 
 TEST_F(ImportGltf, CountsEachUseOfALight) {
-  json document = with_light({{"type", "spot"}, {"spot", json::object()}});
+  json document = with_light({{"type", "laser"}});
   for (int i = 0; i < 2; ++i) document = with_node(document["nodes"][1], document);
-  EXPECT_THAT(load(document).report.warnings,
-              ElementsAre("spot lights ignored (3): only point lights and suns are rendered"));
+  EXPECT_THAT(
+      load(document).report.warnings,
+      ElementsAre("lights of unknown type ignored (3): only point lights, spots and suns are rendered"));
 }
 
 TEST_F(ImportGltf, LoadsNoImages) {
@@ -1289,9 +1339,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Expectation{"dragon_871k.glb", 871'414, 108, 0, 0},
                     Expectation{"lights_bevy_Cubes_pointlight.glb", 36, 0, 0, 1},
                     Expectation{"lights_bevy_VolumetricFogExample_geom.glb", 360, 0, 0, 1},
-                    Expectation{"lights_playcanvas_Lights.glb", 12, 0, 1, 2},
-                    Expectation{"lights_playcanvas_geometry_camera_light.glb", 14, 0, 1, 1},
-                    Expectation{"lights_sphere.gltf", 224, 0, 0, 2}),
+                    Expectation{"lights_playcanvas_Lights.glb", 12, 0, 1, 4},
+                    Expectation{"lights_playcanvas_geometry_camera_light.glb", 14, 0, 1, 2},
+                    Expectation{"lights_sphere.gltf", 224, 0, 0, 4}),
     [](const auto& test) {
       std::string name = test.param.file;
       return name.substr(0, name.find('.'));
@@ -1316,9 +1366,8 @@ TEST(SharedFile, KeepsLightsAndCamerasOfPlaycanvas) {
   EXPECT_EQ(scene.lights.at(0).intensity, V(5, 0, 0));
   expect_near(scene.cameras.at(0).eye, {7.358891487121582, 4.958309173583984, 6.925790786743164});
   EXPECT_NEAR(scene.cameras.at(0).vertical_fov_degrees, 22.8952, 1e-4);
-  EXPECT_THAT(scene.report.warnings, ElementsAre(HasSubstr("spot lights ignored (2)")));
-  ASSERT_EQ(scene.lights.size(), 2u);
-  EXPECT_TRUE(is_sun(scene.lights[1]) != is_sun(scene.lights[0]));
+  EXPECT_THAT(scene.report.warnings, IsEmpty());
+  ASSERT_EQ(scene.lights.size(), 4u);
 }
 
 }  // namespace

@@ -162,6 +162,27 @@ TEST(Validate, RefusesWhatNoMethodCanRender) {
   expect_refused(ExitCode::usage, "no pixels", [](View& v) { v.size.x = 0; });
 }
 
+TEST(Validate, RefusesWhatNoSpotCanBe) {
+  const auto expect_refused = [](const std::string& text, auto&& change) {
+    View view;
+    view.camera.eye = {0, 0, 5};
+    view.lights[0].name = "spot";
+    view.lights[0].cone.emplace();
+    EXPECT_NO_THROW(validate(view));
+    change(view.lights[0]);
+    expect_error(ExitCode::bad_file, text, [&] { validate(view); });
+  };
+  expect_refused("light 'spot': it is a spot whose axis is no direction",
+                 [](Light& light) { light.cone->axis = glm::dvec3(0.0); });
+  expect_refused("light 'spot': it is a spot whose axis is no direction", [](Light& light) {
+    light.cone->axis = {0, 1.1, 0};
+  });
+  expect_refused("light 'spot', target: nan is not finite", [](Light& light) { light.cone->axis.x = k_nan; });
+  expect_refused("light 'spot', angles: the inner half-angle", [](Light& light) { light.cone->inner = 1.0; });
+  expect_refused("light 'spot', angles: nan is not finite", [](Light& light) { light.cone->outer = k_nan; });
+  expect_refused("light 'spot', range: -1 is not positive", [](Light& light) { light.range = -1; });
+}
+
 View sunny_view() {
   View view;
   view.lights = {sun("sun", {3, 4, 0}, glm::vec3(5.0f))};
@@ -197,6 +218,8 @@ TEST(Validate, RefusesWhatNoSunCanBe) {
     v.lights[0].texture =
         std::make_shared<LightTexture>("t", glm::ivec2(1), std::vector<glm::vec3>{glm::vec3(1.0f)});
   });
+  expect_refused(bad, "no cone and no range", [](View& v) { v.lights[0].cone.emplace(); });
+  expect_refused(bad, "no cone and no range", [](View& v) { v.lights[0].range = 1; });
   expect_refused(ExitCode::usage, "lower --irradiance", [](View& v) {
     v.lights[0].irradiance.z = 1e25f;
     v.medium.sigma_s.x = 2.0f;

@@ -264,6 +264,30 @@ TEST_F(Shot, RefusesSeveralLightsThatCannotBe) {
   expect_error(scene + "light = [1, 2]\n", "line 2, light: it must be a table, begun by [light]");
 }
 
+TEST_F(Shot, MakesALampASpotWhateverComesFirst) {
+  const std::string scene = "scene = 'cornell'\n[light]\n";
+  for (const char* keys : {"target = [1, 1, -2]\nposition = [1, 1, 1]\nintensity = 1\n",
+                           "position = [1, 1, 1]\nintensity = 1\ntarget = [1, 1, -2]\n"}) {
+    const Light light = load(scene + keys).lights.at(0);
+    ASSERT_TRUE(light.cone);
+    EXPECT_EQ(light.cone->axis, D(0, 0, -1));
+    EXPECT_EQ(light.cone->inner, 0.0);
+    EXPECT_DOUBLE_EQ(light.cone->outer, std::atan(1.0));
+  }
+  const Light ceiling = load(scene + "angles = [20, 30]\ntarget = [0, 0, 0]\nrange = 4\n").lights.at(0);
+  EXPECT_EQ(ceiling.name, "ceiling");
+  EXPECT_EQ(ceiling.cone->axis, D(0, -1, 0));
+  EXPECT_DOUBLE_EQ(ceiling.cone->outer, std::atan(1.0) * 2 / 3);
+  EXPECT_EQ(ceiling.range, 4.0);
+
+  expect_error(scene + "angles = [20, 30]\n", "line 3, light.angles: the light is no spot");
+  expect_error(scene + "target = [0, 0, 0]\nangles = [30, 20]\n",
+               "line 4, light.angles: the inner half-angle");
+  expect_error(scene + "target = [0, 0, 0]\nangles = 30\n", "line 4, light.angles: it must be two numbers");
+  expect_error(scene + "target = [0, 1.85, 0]\n", "light 'ceiling': it is a spot whose axis is no direction");
+  expect_error(scene + "range = 0\n", "line 3, light.range: 0 is not positive");
+}
+
 TEST_F(Shot, RefusesSunsThatCannotBe) {
   const std::string scene = "scene = 'cornell'\n";
   const std::string sun = scene + "[sun]\nirradiance = 1\n";

@@ -33,6 +33,10 @@ Thing complete() {
   return {};
 }
 template <>
+Light complete() {
+  return {.name = "", .cone = Cone{}};
+}
+template <>
 Medium complete() {
   return {.phase = PhaseFunction::hoffman_preetham};
 }
@@ -54,6 +58,8 @@ Thing owner_of(const Field<Thing>& field) {
 
 /// A text of that kind which is inside every field's range, and no field's default.
 std::string text_for(const FieldInfo& field) {
+  // Of a spot at the origin a point of its axis is kept, 1 m from it.
+  if (field.name == "spot-target") return "0,0,-1";
   switch (field.kind) {
     case FieldKind::number:
       return "0.7";
@@ -63,6 +69,8 @@ std::string text_for(const FieldInfo& field) {
       return "0,0,-1";
     case FieldKind::angles:
       return "30,45";
+    case FieldKind::cone:
+      return "12.3,30";
     case FieldKind::colour:
       return "0.1,0.33333334,1e-09";
     case FieldKind::word:
@@ -201,7 +209,7 @@ TEST(Fields, AreNoneWhereAThingHasNone) {
 TEST(Fields, OfALampAndOfASunExcludeOneAnother) {
   const std::set<std::string_view> of_sun = {"sun", "irradiance"};
   for (const Field<Light>& field : fields<Light>()) {
-    Light lamp, sun = scene::sun("", {0, 1, 0}, glm::vec3(1.0f));
+    Light lamp = complete<Light>(), sun = scene::sun("", {0, 1, 0}, glm::vec3(1.0f));
     const FieldValue value = value_of_text(field, "", text_for(field), white);
     EXPECT_EQ(field.set(lamp, value).has_value(), of_sun.contains(field.name)) << field.name;
     EXPECT_EQ(field.set(sun, value).has_value(), !of_sun.contains(field.name)) << field.name;
@@ -243,6 +251,39 @@ TEST(Fields, AnglesOfASunAreItsAzimuthFromZTowardsXAndItsElevation) {
   }
 }
 
+TEST(Fields, OfASpotAimItFromWhereItStands) {
+  for (double scale : {1e-9, 1.0, 1e9}) {
+    Light lamp = point_light("", scale * glm::dvec3(1, 2, 3), glm::vec3(1.0f));
+    const glm::dvec3 axis(0.6, 0.0, -0.8);
+    ASSERT_FALSE(field<Light>("spot-target").set(lamp, lamp.position + 5.0 * scale * axis));
+    ASSERT_TRUE(lamp.cone);
+    EXPECT_NEAR(glm::distance(lamp.cone->axis, axis), 0.0, 1e-15);
+    EXPECT_EQ(lamp.cone->inner, 0.0);
+    EXPECT_EQ(*field<Light>("spot-angles").get(lamp), FieldValue(glm::dvec2(0, 45)));
+    // What is read aims another lamp there alike.
+    Light other = lamp;
+    other.cone.reset();
+    ASSERT_FALSE(field<Light>("spot-target").set(other, *field<Light>("spot-target").get(lamp)));
+    EXPECT_NEAR(glm::distance(other.cone->axis, axis), 0.0, 1e-15);
+  }
+}
+
+TEST(Fields, OfASpotRefuseHalfAnglesThatAreNone) {
+  for (const char* text : {"0,45", "30,30", "90,90", "0,1e-3"})
+    EXPECT_EQ(problem<Light>("spot-angles", text), "");
+  EXPECT_EQ(problem<Light>("spot-angles", "30,20"), "the inner half-angle 30 is more than the outer one, 20");
+  EXPECT_EQ(problem<Light>("spot-angles", "0,0"), "a cone of half-angle 0 lets no light through");
+  EXPECT_EQ(problem<Light>("spot-angles", "0,91"), "the half-angle 91 is not between 0 and 90 degrees");
+  EXPECT_EQ(problem<Light>("spot-angles", "-1,45"), "the half-angle -1 is not between 0 and 90 degrees");
+  for (double bad : {k_nan, k_infinity}) {
+    EXPECT_TRUE(field<Light>("spot-angles").problem(glm::dvec2(bad, 45)));
+    EXPECT_TRUE(field<Light>("spot-angles").problem(glm::dvec2(0, bad)));
+  }
+  EXPECT_EQ(field<Light>("spot-angles").lack({})->problem, "the light is no spot, which alone has a cone");
+  for (const char* text : {"0", "-2"})
+    EXPECT_EQ(problem<Light>("range", text), fmt::format("{} is not positive", text));
+}
+
 TEST(Fields, OfAPhaseFunctionWithoutGForgetIt) {
   Medium medium = {.phase = PhaseFunction::henyey_greenstein, .g = 0.5f};
   ASSERT_FALSE(field<Medium>("phase").set(medium, std::string("rayleigh")));
@@ -252,6 +293,9 @@ TEST(Fields, OfAPhaseFunctionWithoutGForgetIt) {
 TEST(Fields, HaveKeysThatFollowFromTheirNames) {
   EXPECT_EQ(field<Light>("light-position").key(), "position");
   EXPECT_EQ(field<Light>("intensity").key(), "intensity");
+  EXPECT_EQ(field<Light>("spot-target").key(), "target");
+  EXPECT_EQ(field<Light>("spot-angles").key(), "angles");
+  EXPECT_EQ(field<Light>("range").key(), "range");
   EXPECT_EQ(field<Medium>("rayleigh-weight").key(), "rayleigh_weight");
   EXPECT_EQ(field<View>("size").key(), "size");
   EXPECT_EQ(field<Light>("sun").key(), "towards");
