@@ -104,7 +104,10 @@ int run(int argc, char** argv) {
        "light texture without the first)"});
   add_option(compare_command, options,
              {"surface", "LIST", "methods of surface shadow, separated by commas (default: shadow-map)"});
-  add_option(compare_command, options, {"frames", "N", "frames timed a run, after warm-up (default: 5)"});
+  add_option(
+      compare_command, options,
+      {"frames", "N",
+       "frames timed a run, after warm-up (default: 5); along a path, how often it is timed (default: 1)"});
   add_option(compare_command, options,
              {"max-error", "X", "exit with 1 where a method's airlight has an rrmse above this, as in 0.02"});
   add_option(compare_command, options,
