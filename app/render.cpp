@@ -29,7 +29,7 @@ std::filesystem::path beside(std::filesystem::path image) {
 
 /// The image of one of a path's frames.
 std::filesystem::path numbered(std::filesystem::path output, std::size_t frame) {
-  return output.replace_filename(fmt::format("{}_{}.exr", output.stem().string(), scene::frame_name(frame)));
+  return output.replace_filename(fmt::format("{}{}.exr", output.stem().string(), scene::frame_ending(frame)));
 }
 
 /// Writes images, all with the exposure of the first.

@@ -118,7 +118,7 @@ std::vector<Truth> trace_path(const CompareRequest& request, Measurer& measurer,
     const Truth& truth = truths.emplace_back(trace_truth(measurer.reference(), views[i]));
     const frame::FrameImages images = images_of_truth(measurer, truth);
     if (i == 0) comparison.exposure = choose_exposure(request, images.radiance);
-    write_png(request.directory / fmt::format("reference_{}.png", scene::frame_name(i)), images.radiance,
+    write_png(request.directory / fmt::format("reference{}.png", scene::frame_ending(i)), images.radiance,
               images.size, comparison.exposure.value);
 
     const TruthFigures& figures = truth.figures;
@@ -155,7 +155,7 @@ void measure_path(const CompareRequest& request, Measurer& measurer, const std::
   run.path.resize(truths.size());
   const auto look = [&](std::size_t i, const frame::FrameImages& images) {
     run.path[i].errors = judge(images, truths[i]);
-    write_previews(request, run.name, "_" + scene::frame_name(i), images, truths[i], exposure);
+    write_previews(request, run.name, scene::frame_ending(i), images, truths[i], exposure);
     if (is_worse(run.path[i].errors.airlight, run.path[run.worst_frame].errors.airlight)) run.worst_frame = i;
   };
   const Measurer::PathMeasurement measured =

@@ -211,10 +211,12 @@ std::string path_section(const Comparison& comparison) {
   for (const Run& run : comparison.runs) {
     const PathSpreads spreads = path_spreads(run);
     html += "<tr>" + cell(run.volume) + cell(run.surface) + cell(fmt::format("{:.2f}", spreads.ms.mean)) +
-            cell(fmt::format("{:.2f}", spreads.ms.worst)) + cell(percent(spreads.rrmse.mean)) +
-            cell(percent(spreads.rrmse.worst)) + cell(percent(spreads.same_surface_rrmse.mean)) +
-            cell(percent(spreads.same_surface_rrmse.worst)) + cell(fmt::format("{}", run.worst_frame)) +
-            "</tr>\n";
+            cell(fmt::format("{:.2f}", spreads.ms.worst)) +
+            cell(error_text(spreads.rrmse.mean, comparison.truth.bound)) +
+            cell(error_text(spreads.rrmse.worst, comparison.truth.bound)) +
+            cell(error_text(spreads.same_surface_rrmse.mean, comparison.truth.bound)) +
+            cell(error_text(spreads.same_surface_rrmse.worst, comparison.truth.bound)) +
+            cell(fmt::format("{}", run.worst_frame)) + "</tr>\n";
   }
   html +=
       "</tbody></table></div>\n<div class=\"scroll\"><table><thead><tr><th class=\"name\">volume</th><th "
@@ -243,7 +245,7 @@ std::string run_section(const Run& run) {
   };
   add_settings("", run.settings);
   add_settings("surface ", run.surface_settings);
-  const std::string frame = run.path.empty() ? "" : "_" + scene::frame_name(run.worst_frame);
+  const std::string frame = run.path.empty() ? "" : scene::frame_ending(run.worst_frame);
   const std::string which = run.path.empty() ? "" : fmt::format(", frame {}, the worst", run.worst_frame);
   for (const Run::DebugImage& image : run.debug_images) {
     debug_images += figure(image.name + ".png", fmt::format("{}; white is {:.3g} %", image.caption,

@@ -146,9 +146,7 @@ std::string layout(const std::vector<std::vector<std::string>>& rows, std::size_
 /// Time and error of each run along a path, and apart for each motion from frame to frame.
 std::string path_tables(const Comparison& comparison) {
   const ComparedPath& path = *comparison.path;
-  const auto error = [](double value) {
-    return std::isnan(value) ? std::string("dark") : fmt::format("{:.3g}", 100.0 * value);
-  };
+  const auto error = [&](double value) { return error_text(value, comparison.truth.bound); };
   std::string text =
       fmt::format("path: {} frames in {:g} s, mean and worst\n", path.frames.size(), path.seconds);
   std::vector<std::vector<std::string>> rows = {{"volume", "surface", "frame ms", "worst", "rrmse %", "worst",
@@ -185,17 +183,17 @@ bool is_worse(const AirlightError& a, const AirlightError& b) {
 
 PathSpreads path_spreads(const Run& run) {
   const auto spread = [&](const auto& value_of) {
-    Spread spread{0.0, 0.0};
+    Spread over{0.0, 0.0};
     int frames = 0;
     for (const Run::Frame& frame : run.path) {
       const double value = value_of(frame);
       if (std::isnan(value)) continue;
-      spread.mean += value;
-      spread.worst = std::max(spread.worst, value);
+      over.mean += value;
+      over.worst = std::max(over.worst, value);
       ++frames;
     }
     constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
-    return frames == 0 ? Spread{k_none, k_none} : Spread{spread.mean / frames, spread.worst};
+    return frames == 0 ? Spread{k_none, k_none} : Spread{over.mean / frames, over.worst};
   };
   return {
       .ms = spread([](const Run::Frame& frame) { return frame.cost.ms; }),

@@ -140,8 +140,8 @@ double Path::time(std::size_t frame) const {
                           : seconds * static_cast<double>(frame) / static_cast<double>(views.size() - 1);
 }
 
-std::string frame_name(std::size_t frame) {
-  return fmt::format("{:04}", frame);
+std::string frame_ending(std::size_t frame) {
+  return fmt::format("_{:04}", frame);
 }
 
 Path load_path(const std::filesystem::path& file, const View& view) {

@@ -20,8 +20,8 @@ struct Path {
   double time(std::size_t frame) const;
 };
 
-/// A name in four digits, or more where it takes them, for files of a path's frames: "0007".
-std::string frame_name(std::size_t frame);
+/// What ends the names of files of a path's frame, before the format: "_0007".
+std::string frame_ending(std::size_t frame);
 
 inline constexpr std::size_t k_most_frames = 10000;
 
