@@ -22,13 +22,16 @@ using scene::ExitCode;
 /// truth, which nothing is relative to, a run is judged by whether it is as dark: its rmse not above the
 /// floor.
 void require_accuracy(const quality::Comparison& comparison, double limit) {
-  const quality::TruthFigures& truth = comparison.truth;
   const quality::Run* worst = nullptr;
   for (const quality::Run& run : comparison.runs) {
     if (run.is_judged && (!worst || run.errors.airlight.rmse > worst->errors.airlight.rmse)) worst = &run;
   }
   if (!worst) return;
-  const std::string what = fmt::format("--max-error {}", limit);
+  const quality::TruthFigures& truth =
+      comparison.path ? comparison.path->frames[worst->worst_frame].truth : comparison.truth;
+  const std::string what = comparison.path
+                               ? fmt::format("--max-error {}, frame {}", limit, worst->worst_frame)
+                               : fmt::format("--max-error {}", limit);
   const quality::AirlightError& error = worst->errors.airlight;
   if (truth.is_dark()) {
     if (error.rmse <= truth.floor) return;
@@ -54,7 +57,11 @@ void compare(const Options& options) {
   auto surfaces = parse_surfaces(options);
   require_read(options, volumes, surfaces);
   const int shadow_map = shadow_map_size(options);
-  const int frames = scene::parse_count("--frames", options.get("frames").value_or("5"));
+  const int frames =
+      scene::parse_count("--frames", options.get("frames").value_or(options.get("path") ? "1" : "5"));
+  if (options.debug && options.get("path"))
+    throw Error(ExitCode::usage, "--debug", "there are no such pictures along a path",
+                "leave one of them out");
   std::optional<double> limit;
   if (const auto text = options.get("max-error")) {
     limit = scene::parse_number("--max-error", *text);
@@ -74,10 +81,14 @@ void compare(const Options& options) {
   if (json && *json != "-") require_writable(*json);
   if (!options.quiet) say_warnings(subject.scene.report);
 
-  require_memory({.size = subject.view.size,
-                  .bytes_per_pixel = k_bytes_of_compare + k_bytes_of_light * (subject.view.lights.size() - 1),
-                  .shadow_map = quality::is_read("shadow-map", volumes, surfaces) ? shadow_map : 0,
-                  .triangles = subject.scene.geometry.triangles.size()});
+  require_memory(
+      {.size = subject.view.size,
+       .bytes_per_pixel =
+           k_bytes_of_compare + k_bytes_of_light * (subject.view.lights.size() - 1) +
+           (subject.path ? subject.path->views.size() * subject.view.lights.size() * k_bytes_of_path_frame
+                         : 0),
+       .shadow_map = quality::is_read("shadow-map", volumes, surfaces) ? shadow_map : 0,
+       .triangles = subject.scene.geometry.triangles.size()});
   const auto command = [&](const quality::VolumeChoice& volume, const quality::SurfaceChoice& surface) {
     // What is asked of all pairs, and what this one does not read, is left out.
     std::vector<std::string> without = {"volume", "surface", "json", "max-error"};
@@ -93,6 +104,7 @@ void compare(const Options& options) {
     comparison = quality::compare(context, {.scene_name = options.scene,
                                             .scene = subject.scene,
                                             .view = subject.view,
+                                            .path = subject.path ? &*subject.path : nullptr,
                                             .volumes = volumes,
                                             .surfaces = surfaces,
                                             .shadow_map_size = shadow_map,

@@ -118,7 +118,10 @@ int run(int argc, char** argv) {
        "light texture without the first)"});
   add_option(compare_command,
              {"surface", "LIST", "methods of surface shadow, separated by commas (default: shadow-map)"});
-  add_option(compare_command, {"frames", "N", "frames timed a run, after warm-up (default: 5)"});
+  add_option(
+      compare_command,
+      {"frames", "N",
+       "frames timed a run, after warm-up (default: 5); along a path, how often it is timed (default: 1)"});
   add_option(compare_command,
              {"max-error", "X", "exit with 1 where a method's airlight has an rrmse above this, as in 0.02"});
   add_option(compare_command,

@@ -17,11 +17,17 @@ struct Holding {
 /// A frame's images, and one copy of each in turn as it is read; 85 measured at 8192².
 constexpr std::size_t k_bytes_of_render = 90;
 
+/// A frame's images, which stay for the next frame, and a copy of all.
+constexpr std::size_t k_bytes_of_path = 120;
+
 /// The same and the truth, a run's images, and what its errors are found in.
 constexpr std::size_t k_bytes_of_compare = 190;
 
 /// What each further light adds: its airlight and visibility, and a copy of each.
 constexpr std::size_t k_bytes_of_light = 40;
+
+/// The truth of each of a path's frames, by one light.
+constexpr std::size_t k_bytes_of_path_frame = 20;
 
 /// Out of memory a driver aborts, or says that it is not there: what cannot fit is refused before it is
 /// woken.

@@ -122,6 +122,8 @@ std::span<const OptionLine> common_options() {
     std::vector<OptionLine> lines = {{"triangles", "N", triangles_help()}};
     for (const scene::FieldInfo* field : scene::every_field())
       lines.push_back({field->name, field->placeholder, field->help()});
+    lines.push_back(
+        {"path", "FILE.toml", "images along a path of camera and lights, whose key frames the file holds"});
     lines.push_back({"shadow-map", "N", "side of a face of the shadow map [texels] (default: 2048)"});
     lines.push_back(
         {"cache", "DIR", "keep the reference's images there, and look there before tracing them"});
@@ -145,7 +147,7 @@ std::string Options::command_line(std::span<const std::string> without) const {
 Subject make_subject(const Options& options) {
   // What is wrong with the words is said before a long file is read.
   const ViewChoices choices = read_choices(options);
-  Subject subject{load_scene(options), {}, {}};
+  Subject subject{load_scene(options), {}, {}, {}};
   choose_all(choices.of_view, choices.of_lights, subject.scene);
   if (subject.scene.lights.empty())
     throw usage(options.scene, "it has no light",
@@ -153,6 +155,12 @@ Subject make_subject(const Options& options) {
   subject.view = {subject.scene.cameras[0], subject.scene.lights, subject.scene.medium};
   choose(choices.of_view, subject.view);
   subject.exposure = subject.scene.exposure;
+  if (const auto path = options.get("path")) {
+    subject.path = scene::load_path(*path, subject.view);
+    subject.view = subject.path->views[0];
+    for (const std::string& warning : subject.path->warnings)
+      subject.scene.report.warnings.push_back(warning);
+  }
   scene::validate(subject.view);
   return subject;
 }
@@ -190,13 +198,15 @@ void fit_to_view(const Options& options, std::vector<quality::VolumeChoice>& vol
   // A usual method's options are not the user's choice, but for those that the command gives. Where none can
   // show the view, the first says why.
   const auto is_refused = [&](const quality::VolumeChoice& volume) {
-    const auto refusal = volume.method->refusal(volume.options, subject.view);
-    return refusal && !options.get("volume") &&
-           !options.get(refusal->where.substr(0, refusal->where.find('=')));
+    return std::any_of(subject.views().begin(), subject.views().end(), [&](const scene::View& view) {
+      const auto refusal = volume.method->refusal(volume.options, view);
+      return refusal && !options.get("volume") &&
+             !options.get(refusal->where.substr(0, refusal->where.find('=')));
+    });
   };
   if (!std::all_of(volumes.begin(), volumes.end(), is_refused)) std::erase_if(volumes, is_refused);
-  for (quality::VolumeChoice& volume : volumes) volume.fit(subject.view);
-  for (quality::SurfaceChoice& surface : surfaces) surface.fit(subject.view);
+  for (quality::VolumeChoice& volume : volumes) volume.fit(subject.views());
+  for (quality::SurfaceChoice& surface : surfaces) surface.fit(subject.views());
   quality::warn_of_open_parts(volumes, surfaces, subject.scene);
 }
 

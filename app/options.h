@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "quality/methods.h"
+#include "scene/path.h"
 #include "scene/scene.h"
 
 namespace airlight::app {
@@ -48,7 +49,13 @@ struct Options {
 struct Subject {
   scene::Scene scene;
   scene::View view;
-  std::optional<float> exposure;  ///< asked for or brought by the scene; else automatic
+  std::optional<float> exposure;    ///< asked for or brought by the scene; else automatic
+  std::optional<scene::Path> path;  ///< its first view is `view`
+
+  /// The path's, or the one.
+  std::span<const scene::View> views() const {
+    return path ? std::span<const scene::View>(path->views) : std::span(&view, 1);
+  }
 };
 
 /// Loads the scene and makes all choices of the view.

@@ -1,5 +1,9 @@
 #include <filesystem>
 #include <future>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -10,12 +14,73 @@
 #include "quality/darkness.h"
 #include "quality/pictures.h"
 #include "quality/results.h"
+#include "quality/traced.h"
 
 namespace airlight::app {
 namespace {
 
 using scene::Error;
 using scene::ExitCode;
+
+/// The preview of an image.
+std::filesystem::path beside(std::filesystem::path image) {
+  return image.replace_extension(".png");
+}
+
+/// The image of one of a path's frames.
+std::filesystem::path numbered(std::filesystem::path output, std::size_t frame) {
+  return output.replace_filename(fmt::format("{}{}.exr", output.stem().string(), scene::frame_ending(frame)));
+}
+
+/// Writes images, all with the exposure of the first.
+struct Images {
+  const Options& options;
+  const Subject& subject;
+  const quality::VolumeChoice& volume;
+  const quality::SurfaceChoice& surface;
+  int shadow_map;
+  std::optional<float> exposure;  ///< automatic until the first image
+  std::string renderer = {};
+  bool first_is_black = false;
+  std::string first_skipped = {};  ///< quality::skipped_lights
+  bool is_first = true;
+
+  void write(const std::filesystem::path& file, const scene::View& view, const frame::FrameImages& images) {
+    if (is_first) {
+      first_is_black = quality::is_black(images.radiance);
+      first_skipped = quality::skipped_lights(images);
+    }
+    is_first = false;
+    if (!exposure) exposure = quality::automatic_exposure(images.radiance);
+    auto preview_is_written = std::async(std::launch::async, [&] {
+      quality::write_png(beside(file), images.radiance, images.size, *exposure);
+    });
+    quality::write_frame(file, images, metadata_of(view));
+    preview_is_written.get();
+  }
+
+  std::map<std::string, std::string> metadata_of(const scene::View& view) const {
+    std::map<std::string, std::string> configuration = quality::view_options(view);
+    configuration["scene"] = options.scene;
+    configuration["volume"] = volume.spec;
+    configuration["surface"] = surface.spec;
+    for (const auto& [name, value] : volume.values()) configuration[name] = frame::text_of(value);
+    for (const auto& [name, value] : surface.values())
+      configuration["surface." + name] = frame::text_of(value);
+    if (quality::is_read("shadow-map", {&volume, 1}, {&surface, 1}))
+      configuration["shadow-map"] = fmt::format("{}", shadow_map);
+    configuration["exposure"] = fmt::format("{}", *exposure);
+    for (const char* name : {"albedo", "triangles"})
+      if (const auto text = options.get(name)) configuration[name] = *text;
+    configuration["version"] = quality::version();
+    configuration["renderer"] = renderer;
+    configuration["command"] =
+        fmt::format("{} -o {}", options.command_line({}), quality::shell_quote(options.output));
+    std::map<std::string, std::string> metadata;
+    for (const auto& [name, value] : configuration) metadata["airlight." + name] = value;
+    return metadata;
+  }
+};
 
 }  // namespace
 
@@ -39,68 +104,63 @@ void render(const Options& options) {
   fit_to_view(options, volumes, surfaces, subject);
   const quality::VolumeChoice& volume = volumes[0];
   const quality::SurfaceChoice& surface = surfaces[0];
-  std::filesystem::path preview = output;
-  preview.replace_extension(".png");
   if (output.has_parent_path()) require_folder(output.parent_path());
-  require_writable(output);
-  require_writable(preview);
+  const std::filesystem::path first = subject.path ? numbered(output, 0) : output;
+  require_writable(first);
+  require_writable(beside(first));
   if (!options.quiet) say_warnings(subject.scene.report);
 
   require_memory({.size = subject.view.size,
-                  .bytes_per_pixel = k_bytes_of_render + k_bytes_of_light * (subject.view.lights.size() - 1),
+                  .bytes_per_pixel = (subject.path ? k_bytes_of_path : k_bytes_of_render) +
+                                     k_bytes_of_light * (subject.view.lights.size() - 1),
                   .shadow_map = quality::is_read("shadow-map", volumes, surfaces) ? shadow_map : 0,
                   .triangles = subject.scene.geometry.triangles.size()});
-  frame::FrameImages images;
-  std::string renderer;
+  Images images{.options = options,
+                .subject = subject,
+                .volume = volume,
+                .surface = surface,
+                .shadow_map = shadow_map,
+                .exposure = subject.exposure};
+  const std::span<const scene::View> views = subject.views();
   {
     ProgressLine progress(options.quiet);
+    const quality::Progress follow = progress.follower();
     gpu::Context context;
-    renderer = context.device().renderer;
+    images.renderer = context.device().renderer;
     frame::Frame frame(context, subject.scene.geometry, shadow_map);
-    quality::SharedReference reference(subject.scene.geometry, subject.view, progress.follower(),
-                                       options.get("cache").value_or(""));
-    {
-      const auto airlight = volume.make(context, reference);
-      const auto shadow = surface.make(context, reference);
+    auto airlight = volume.method->make(context, volume.options);
+    auto shadow = surface.method->make(context, surface.options);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      quality::SharedReference reference(subject.scene.geometry, views[i], follow,
+                                         options.get("cache").value_or(""));
+      quality::lend(reference, *airlight);
+      quality::lend(reference, *shadow);
       gpu::StageTimer off(nullptr);
-      frame.render(subject.view, *shadow, *airlight, off);
+      frame.render(views[i], *shadow, *airlight, off, frame::Resting::kept);
+      if (subject.path) {
+        images.write(numbered(output, i), views[i], frame.read());
+        if (follow) follow("frames", static_cast<double>(i + 1) / static_cast<double>(views.size()));
+        continue;
+      }
+      airlight.reset();
+      shadow.reset();
+      images.write(output, views[i], frame.take());
     }
-    images = frame.take();
   }
-  const float exposure = subject.exposure ? *subject.exposure : quality::automatic_exposure(images.radiance);
-
-  std::map<std::string, std::string> configuration = quality::view_options(subject.view);
-  configuration["scene"] = options.scene;
-  configuration["volume"] = volume.spec;
-  configuration["surface"] = surface.spec;
-  for (const auto& [name, value] : volume.values()) configuration[name] = frame::text_of(value);
-  for (const auto& [name, value] : surface.values()) configuration["surface." + name] = frame::text_of(value);
-  if (quality::is_read("shadow-map", volumes, surfaces))
-    configuration["shadow-map"] = fmt::format("{}", shadow_map);
-  configuration["exposure"] = fmt::format("{}", exposure);
-  for (const char* name : {"albedo", "triangles"})
-    if (const auto text = options.get(name)) configuration[name] = *text;
-  configuration["version"] = quality::version();
-  configuration["renderer"] = renderer;
-  configuration["command"] =
-      fmt::format("{} -o {}", options.command_line({}), quality::shell_quote(options.output));
-  std::map<std::string, std::string> metadata;
-  for (const auto& [name, value] : configuration) metadata["airlight." + name] = value;
-
-  auto preview_is_written = std::async(
-      std::launch::async, [&] { quality::write_png(preview, images.radiance, images.size, exposure); });
-  quality::write_frame(output, images, metadata);
-  preview_is_written.get();
-  if (!options.quiet) {
-    const bool black = quality::is_black(images.radiance);
-    if (black)
-      say("airlight: warning: the image is black: " +
-          quality::why_black(subject.scene.geometry, subject.view));
-    if (const std::string skipped = quality::skipped_lights(images); !skipped.empty())
-      say(fmt::format("skipped, because they cannot reach the view: {}", skipped));
-    say(fmt::format("{} and {} written, exposure {:.4g}{}", output.string(), preview.string(), exposure,
-                    subject.exposure || black ? "" : " (automatic: the 95th percentile maps to 0.8)"));
-  }
+  if (options.quiet) return;
+  if (images.first_is_black)
+    say("airlight: warning: the image is black: " + quality::why_black(subject.scene.geometry, subject.view));
+  if (!images.first_skipped.empty())
+    say(fmt::format("skipped{}, because they cannot reach the view: {}",
+                    subject.path ? " in the first image" : "", images.first_skipped));
+  const std::string last =
+      subject.path ? fmt::format(" to {}", numbered(output, views.size() - 1).string()) : "";
+  say(fmt::format("{}{} and {} written, exposure {:.4g}{}", first.string(), last, beside(first).string(),
+                  *images.exposure,
+                  subject.exposure || images.first_is_black
+                      ? ""
+                      : fmt::format(" (automatic: the 95th percentile{} maps to 0.8)",
+                                    subject.path ? " of the first" : "")));
 }
 
 }  // namespace airlight::app

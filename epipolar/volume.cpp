@@ -1,6 +1,7 @@
 #include "epipolar/volume.h"
 
 #include <algorithm>
+#include <cstring>
 #include <numbers>
 #include <utility>
 
@@ -162,7 +163,26 @@ ShadowVolume::ShadowVolume(const gpu::Limits& limits, const VolumeOptions& optio
   }
 }
 
-shaders::EpipolarBlock ShadowVolume::find_ranges(const frame::FrameInputs& inputs, bool own_ranges) const {
+bool ShadowVolume::Source::operator==(const Source& other) const {
+  return scene == other.scene && scene::shine_alike(light, other.light) && medium == other.medium &&
+         eye == other.eye && std::memcmp(&block, &other.block, sizeof block) == 0 && image == other.image;
+}
+
+ShadowVolume::Source ShadowVolume::source_of(const frame::FrameInputs& inputs,
+                                             const shaders::EpipolarBlock& block) const {
+  const scene::View& view = inputs.view;
+  Source source{.scene = inputs.scene.id(),
+                .light = inputs.light(),
+                .eye = view.camera.eye,
+                .block = block,
+                .medium = view.medium,
+                .image = {}};
+  if (options_.ranges != Ranges::full || inputs.shadow_map_is_plane())
+    source.image = {scene::camera_frame(view.camera, view.size), view.size};
+  return source;
+}
+
+shaders::EpipolarBlock ShadowVolume::find_ranges(const frame::FrameInputs& inputs, bool own_ranges) {
   shaders::EpipolarBlock block =
       epipolar_block(inputs.view, inputs.light(), options_.resolution, options_.ranges, options_.theta_cells);
   if (!own_ranges) block.own_ranges = 0.0f;
@@ -173,6 +193,13 @@ shaders::EpipolarBlock ShadowVolume::find_ranges(const frame::FrameInputs& input
     block.alpha_min = shaders::Angle(0.0f);
     block.alpha_step = shaders::spaced_alpha(block, end) / count;
   }
+  found_ = source_of(inputs, block);
+  rests_ = inputs.resources.keeps() && filled_ == found_;
+  if (rests_) {
+    grid_.bind();
+    return block;
+  }
+  filled_.reset();
   inputs.timer.time("ranges", [&] {
     grid_.block().write(&block, sizeof block);
     grid_.phi_range().clear();
@@ -214,12 +241,15 @@ void ShadowVolume::fill_unscanned(const frame::FrameInputs& inputs, bool with_bi
 }
 
 void ShadowVolume::fill(const frame::FrameInputs& inputs) {
+  if (rests_) return;
   inputs.timer.time("populate", [&] { fill_unscanned(inputs, !fused_scan_); });
   inputs.timer.time("scan", [&] {
     if (fused_scan_) fused_scan_->run(grid_);
     if (or_scan_) or_scan_->run(grid_);
     if (mip_scan_) mip_scan_->run(grid_);
   });
+  filled_ = found_;
+  inputs.resources.note_redrawn("volume");
 }
 
 std::map<std::string, std::int64_t> ShadowVolume::bytes() const {

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "epipolar/fused_scan.h"
@@ -66,24 +68,48 @@ class ShadowVolume {
   ShadowVolume(const gpu::Limits& limits, const VolumeOptions& options);
 
   /// Finds the ranges of α, θ and φ for a view, and cuts φ equally. Times `ranges`. Leaves the grid bound.
+  /// Where the frame keeps what rests, and nothing has changed that the volume depends on, it stays as it is.
   /// @param own_ranges whether, with Ranges::frame, each half-plane has its own range of φ
   /// @returns what it wrote to the grid's block
-  shaders::EpipolarBlock find_ranges(const frame::FrameInputs& inputs, bool own_ranges = true) const;
+  shaders::EpipolarBlock find_ranges(const frame::FrameInputs& inputs, bool own_ranges = true);
 
-  /// Populates and scans; the grid is bound. Times `populate` and `scan`.
+  /// Whether the volume stays as `fill` made it before: what depends on its ranges and on the medium alone
+  /// need not be made anew either.
+  bool rests() const { return rests_; }
+
+  /// Populates and scans, unless the volume rests; the grid is bound. Times `populate` and `scan`.
   void fill(const frame::FrameInputs& inputs);
 
   /// The same without the scan: the bits that it would start from.
-  void fill_unscanned(const frame::FrameInputs& inputs) { fill_unscanned(inputs, true); }
+  void fill_unscanned(const frame::FrameInputs& inputs) {
+    filled_.reset();
+    fill_unscanned(inputs, true);
+  }
 
   const Grid& grid() const { return grid_; }
   std::map<std::string, std::int64_t> bytes() const;  ///< memory on the GPU, by name
 
  private:
+  /// What a volume depends on, beside its options: on where eye and light are, …
+  struct Source {
+    std::uint64_t scene;
+    scene::Light light;
+    glm::dvec3 eye;
+    shaders::EpipolarBlock block;
+    scene::Medium medium;  ///< … on where a medium has light come from, if the cells in φ grow with that, …
+    /// … and on what the camera sees: none with Ranges::full and a cube for the shadow map.
+    std::optional<std::pair<scene::CameraFrame, glm::ivec2>> image;
+    bool operator==(const Source& other) const;
+  };
+  Source source_of(const frame::FrameInputs& inputs, const shaders::EpipolarBlock& block) const;
+
   void fill_unscanned(const frame::FrameInputs& inputs, bool with_bits);
 
   VolumeOptions options_;
   Grid grid_;
+  Source found_{};                ///< of the ranges
+  std::optional<Source> filled_;  ///< of the bits
+  bool rests_ = false;
   gpu::Pipeline planes_, phi_range_, plane_cells_, plane_range_, scatter_;
   std::optional<PopulateShadowMap> populate_shadow_map_;
   std::optional<PopulateConservative> populate_conservative_;

@@ -133,10 +133,10 @@ void Frame::require_images(const scene::View& view, gpu::Format visibility_forma
 }
 
 void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airlight& airlight,
-                   gpu::StageTimer& timer) {
+                   gpu::StageTimer& timer, Resting resting) {
   scene::validate(view);
   require_images(view, surface_shadow.visibility_format());
-  resources_.begin_frame();
+  resources_.begin_frame(resting);
   const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
   const SceneBuffers& scene = resources_.scene();
 
@@ -169,9 +169,8 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
     timer.begin_part(i);
     resources_.begin_light(light, camera);
     const std::optional<ShadowPlane>& plane = resources_.shadow_plane();
-    const float near =
-        plane ? 0.0f : near_depth(scene, light.position, glm::distance(light.position, camera.eye));
-    write_block(light_block_, light_block(light, camera.eye, near, resources_.shadow_map_size(), plane),
+    write_block(light_block_,
+                light_block(light, camera.eye, resources_.light_near(), resources_.shadow_map_size(), plane),
                 shaders::k_light_block);
     const FrameInputs inputs{.context = context_,
                              .view = view,

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -42,10 +43,15 @@ class Frame {
   /// Issues all work of one frame to the GPU, without waiting for it where `timer` is off. Of the timer's
   /// parts number i is that of light i. A light that cannot reach the view is skipped, unless a method sees
   /// every one.
+  /// @param resting whether a shadow map, or a method's volume, that is as it was in the last frame is made
+  /// anew
   /// @throws scene::Error (bad_file) where scene::validate does; (driver) for an image over the driver's
   /// limit.
   void render(const scene::View& view, SurfaceShadow& surface_shadow, Airlight& airlight,
-              gpu::StageTimer& timer);
+              gpu::StageTimer& timer, Resting resting = Resting::redrawn);
+
+  /// What the last frame made for its lights: of "shadow_map", any face of it, and "volume".
+  const std::set<std::string>& redrawn() const { return resources_.redrawn(); }
 
   /// Waits for the last frame.
   /// @throws scene::Error (driver) when it holds NaN or infinity: never shown as a colour.

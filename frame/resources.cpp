@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "frame/blocks.h"
 #include "scene/error.h"
 #include "scene/light_texture.h"
 
@@ -13,21 +14,37 @@ namespace airlight::frame {
 Resources::Resources(gpu::Context& context, const scene::Geometry& geometry, int shadow_map_size)
     : context_(context), geometry_(geometry), scene_(context, geometry), shadow_map_size_(shadow_map_size) {}
 
-void Resources::begin_frame() {
+bool Resources::OfMap::operator==(const OfMap& other) const {
+  return scene::shine_alike(light, other.light) && plane == other.plane && near == other.near &&
+         left_out == other.left_out;
+}
+
+void Resources::begin_frame(Resting resting) {
   shadow_map_bytes_ = 0;
   std::erase_if(light_textures_, [](const auto& texture) { return !texture.second.is_used; });
   for (auto& texture : light_textures_) texture.second.is_used = false;
+  resting_ = resting;
+  redrawn_.clear();
 }
 
 void Resources::begin_light(const scene::Light& light, const scene::CameraFrame& camera) {
   light_ = &light;
   camera_ = camera;
   shadow_plane_ = fit_shadow_plane(light, camera, scene_.box(), shadow_map_size_);
-  shadow_plane_is_drawn_ = false;
   triangles_at_light_.clear();
-  if (!shadow_plane_)
-    triangles_at_light_ = scene_.triangles_at(light.position, glm::distance(light.position, camera.eye));
-  if (shadow_map_) shadow_map_->reset();
+  light_near_ = 0.0f;
+  if (!shadow_plane_) {
+    const double distance = glm::distance(light.position, camera.eye);
+    triangles_at_light_ = scene_.triangles_at(light.position, distance);
+    light_near_ = near_depth(scene_, light.position, distance);
+  }
+
+  // What there is of a shadow map serves this light, or goes.
+  std::optional<OfMap>& drawn = shadow_plane_ ? drawn_plane_map_ : drawn_cube_;
+  if (!keeps() || drawn != of_map()) {
+    drawn.reset();
+    if (!shadow_plane_ && shadow_map_) shadow_map_->reset();
+  }
   if (!light.texture) return;
   LightTexels& on_gpu = light_textures_[light.texture];
   on_gpu.is_used = true;
@@ -50,9 +67,10 @@ void Resources::begin_light(const scene::Light& light, const scene::CameraFrame&
 const gpu::Texture& Resources::shadow_map(double reach, gpu::StageTimer& timer) {
   if (shadow_plane_) {
     if (!shadow_plane_map_) shadow_plane_map_.emplace(context_, shadow_map_size_);
-    if (!shadow_plane_is_drawn_) {
+    if (!drawn_plane_map_) {
       timer.time("shadow_map", [&] { shadow_plane_map_->draw(scene_, *shadow_plane_); });
-      shadow_plane_is_drawn_ = true;
+      drawn_plane_map_ = of_map();
+      note_redrawn("shadow_map");
     }
     shadow_map_bytes_ = std::max(shadow_map_bytes_, shadow_plane_map_->depth().bytes());
     return shadow_plane_map_->depth();
@@ -62,6 +80,8 @@ const gpu::Texture& Resources::shadow_map(double reach, gpu::StageTimer& timer) 
   if (!shadow_map_->has(faces)) {
     timer.time("shadow_map",
                [&] { shadow_map_->draw(scene_, light_->position, triangles_at_light_, faces); });
+    drawn_cube_ = of_map();
+    note_redrawn("shadow_map");
   }
   shadow_map_bytes_ = std::max(shadow_map_bytes_, shadow_map_->depth().bytes());
   return shadow_map_->depth();

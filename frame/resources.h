@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,15 @@
 
 namespace airlight::frame {
 
+/// What becomes, in the next frame, of what is made for a light and has not changed.
+enum class Resting {
+  redrawn,  ///< it is made anew, so that each frame costs what a frame costs
+  kept,     ///< it is used again: the same image for less
+};
+
 /// What the steps of a frame may ask for beside what they are always given. Each thing is made when it is
-/// first asked for: of the scene once, of a light once a frame. The time of making it is a stage of its own,
-/// whoever asks, and its memory counts in the frames that used it.
+/// first asked for: of the scene once, of a light once a frame, or once while it rests. The time of making it
+/// is a stage of its own, whoever asks, and its memory counts in the frames that used it.
 class Resources {
  public:
   /// @param geometry kept by reference
@@ -30,11 +37,21 @@ class Resources {
   const SceneBuffers& scene() const { return scene_; }
   int shadow_map_size() const { return shadow_map_size_; }
 
-  void begin_frame();
+  void begin_frame(Resting resting);
+
+  /// Whether what rests is to be used again in this frame.
+  bool keeps() const { return resting_ == Resting::kept; }
+
+  /// To be told of what was made in this frame for a light: "shadow_map", "volume".
+  void note_redrawn(const std::string& what) { redrawn_.insert(what); }
+  const std::set<std::string>& redrawn() const { return redrawn_; }
 
   /// What is asked for from now on is this light's. Its block is bound.
   /// @throws scene::Error (driver) for a texture over the driver's limit
   void begin_light(const scene::Light& light, const scene::CameraFrame& camera);
+
+  /// Of the light: see frame::near_depth; 0 where its shadow map is drawn on a plane.
+  float light_near() const { return light_near_; }
 
   /// Where the light's shadow map lies, if it is drawn on a plane: else it is a cube.
   const std::optional<ShadowPlane>& shadow_plane() const { return shadow_plane_; }
@@ -72,8 +89,21 @@ class Resources {
   scene::CameraFrame camera_{};          ///< that sees what it lights
   std::vector<std::uint32_t> triangles_at_light_;
   std::optional<ShadowPlane> shadow_plane_;
-  bool shadow_plane_is_drawn_ = false;
-  std::int64_t shadow_map_bytes_ = 0;  ///< of those used in this frame
+  float light_near_ = 0.0f;
+  Resting resting_ = Resting::redrawn;
+  std::set<std::string> redrawn_;
+
+  /// What the shadow map depends on, beside the scene: that on a plane on the view, too.
+  struct OfMap {
+    scene::Light light;
+    std::optional<ShadowPlane> plane;
+    float near;                           ///< of a cube
+    std::vector<std::uint32_t> left_out;  ///< of a cube: see triangles_at_light
+    bool operator==(const OfMap& other) const;
+  };
+  OfMap of_map() const { return {*light_, shadow_plane_, light_near_, triangles_at_light_}; }
+  std::optional<OfMap> drawn_plane_map_, drawn_cube_;  ///< none where there is nothing that could be kept
+  std::int64_t shadow_map_bytes_ = 0;                  ///< of those used in this frame
 
   struct LightTexels {
     gpu::Texture texels;

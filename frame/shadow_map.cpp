@@ -102,6 +102,7 @@ ShadowMap::ShadowMap(const gpu::Context& context, int size) {
 
 void ShadowMap::draw(const SceneBuffers& scene, glm::dvec3 light, std::span<const std::uint32_t> left_out,
                      CubeFaces faces) {
+  const glm::vec3 light_high(light);
   for (std::size_t face = 0; face < 6; ++face) {
     if (drawn_[face]) continue;
     const gpu::Framebuffer& target = faces_[face];
@@ -110,6 +111,8 @@ void ShadowMap::draw(const SceneBuffers& scene, glm::dvec3 light, std::span<cons
     drawn_[face] = faces[face];
     if (!faces[face]) continue;
     program_.set(0, static_cast<int>(face));
+    program_.set(1, light_high);
+    program_.set(2, glm::vec3(light - glm::dvec3(light_high)));
     const FaceAxes axes(static_cast<int>(face));
     program_.draw(target, [&] {
       scene.draw({.apex = light,

@@ -34,14 +34,14 @@ class ShadowMap {
   /// @throws scene::Error (driver) when the driver has no texture of that size.
   ShadowMap(const gpu::Context& context, int size);
 
-  /// No face counts as drawn any more: the light or the scene is another.
+  /// No face counts as drawn any more: the light is another, or all is to be drawn anew.
   void reset() { drawn_.reset(); }
 
   /// Whether all of `faces` are drawn.
   bool has(CubeFaces faces) const { return (faces & ~drawn_).none(); }
 
   /// Draws the scene as seen from `light`, world space, on those of `faces` that are not drawn yet. The
-  /// blocks of camera and light are bound.
+  /// light's block is bound, of which only LightBlock::near matters.
   /// @param left_out triangle numbers, sorted
   void draw(const SceneBuffers& scene, glm::dvec3 light, std::span<const std::uint32_t> left_out,
             CubeFaces faces);

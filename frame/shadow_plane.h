@@ -21,6 +21,7 @@ struct ShadowPlane {
   double half_texel;                    ///< half the larger side of a texel [m]
   std::vector<glm::dvec3> half_spaces;  ///< inward normals of planes through the eye: the swept pyramid
   glm::dvec3 eye;                       ///< world space [m]
+  bool operator==(const ShadowPlane&) const = default;
 
   /// Whether a box, world space, may reach into the swept pyramid: never wrongly "no".
   bool may_touch(const scene::Box& box) const;

@@ -203,6 +203,10 @@ void Pipeline::set(int location, glm::uvec4 value) const {
   glProgramUniform4ui(handle_.get(), location, value.x, value.y, value.z, value.w);
 }
 
+void Pipeline::set(int location, glm::vec3 value) const {
+  glProgramUniform3f(handle_.get(), location, value.x, value.y, value.z);
+}
+
 void Pipeline::dispatch(glm::uvec3 invocations) const {
   const glm::uvec3 groups =
       invocations / work_group_ + glm::uvec3(glm::notEqual(invocations % work_group_, glm::uvec3(0)));

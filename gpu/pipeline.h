@@ -97,6 +97,7 @@ class Pipeline {
   void set(int location, std::uint32_t value) const;
   void set(int location, glm::uvec2 value) const;
   void set(int location, glm::uvec4 value) const;
+  void set(int location, glm::vec3 value) const;
 
   /// Invocations in one group of a compute pipeline.
   glm::uvec3 work_group() const { return work_group_; }

@@ -152,14 +152,14 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
            {static_cast<std::uint32_t>(inputs.view.medium.phase), is_grey ? 1u : 3u,
             direct_cells(space, volume_.grid().resolution()), light_texture != nullptr, rough, is_sun, layer,
             alpha_max(space, volume_.grid().resolution()) > 0.5f * shaders::k_half_turn});
-  if (options_.phi_cells == PhiCells::growing)
+  if (options_.phi_cells == PhiCells::growing && !volume_.rests())
     inputs.timer.time("ranges", [&] { programs.phi_growth.dispatch({1, 1, 1}); });
 
   // Visibility.
   volume_.fill(inputs);
 
   // Radiance.
-  if (has_table) {
+  if (has_table && !volume_.rests()) {
     inputs.timer.time("table", [&] {
       table_.bind_storage(shaders::k_table_storage);
       programs.build_table.dispatch({table_rows(rough), 1, 1});

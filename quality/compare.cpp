@@ -44,31 +44,38 @@ std::map<std::string, std::string> metadata_of(const CompareRequest& request, co
   return metadata;
 }
 
-/// @returns the exposure of all previews
-Exposure write_truth(const CompareRequest& request, Measurer& measurer, const Truth& truth) {
-  // The colour of surfaces is the compositor's, the rest the rays'.
-  const VolumeChoice volume = parse_volumes("reference")[0];
-  const SurfaceChoice surface = parse_surfaces("reference")[0];
-  frame::FrameImages images = measurer.render(volume, surface);
+/// What the truth of the view that is looked at looks like: the colour of surfaces is the compositor's, the
+/// rest the rays'.
+frame::FrameImages images_of_truth(Measurer& measurer, const Truth& truth) {
+  frame::FrameImages images = measurer.render(parse_volumes("reference")[0], parse_surfaces("reference")[0]);
   images.distance = truth.distance;
   images.visibility = truth.visibility;
-  const Exposure exposure =
-      request.exposure ? Exposure{*request.exposure, false, is_black(images.radiance)}
-                       : Exposure{automatic_exposure(images.radiance), true, is_black(images.radiance)};
+  return images;
+}
+
+/// Of all previews. @param radiance the truth's, of a path's first frame
+Exposure choose_exposure(const CompareRequest& request, const std::vector<glm::vec3>& radiance) {
+  return request.exposure ? Exposure{*request.exposure, false, is_black(radiance)}
+                          : Exposure{automatic_exposure(radiance), true, is_black(radiance)};
+}
+
+void write_truth(const CompareRequest& request, const frame::FrameImages& images, const Truth& truth,
+                 const Exposure& exposure) {
+  const VolumeChoice volume = parse_volumes("reference")[0];
+  const SurfaceChoice surface = parse_surfaces("reference")[0];
   auto metadata =
       metadata_of(request, volume.spec, surface.spec, command_of(request, "reference", volume, surface));
   metadata["airlight.bound"] = fmt::format("{}", truth.figures.bound);
   write_frame(request.directory / "reference.exr", images, metadata);
   write_png(request.directory / "reference.png", images.radiance, images.size, exposure.value);
-  return exposure;
 }
 
-void write_images(const CompareRequest& request, const Run& run, const frame::FrameImages& images,
-                  const Truth& truth, const Exposure& exposure) {
-  const auto file = [&](const char* ending) { return request.directory / (run.name + ending); };
-  write_frame(file(".exr"), images, metadata_of(request, run.volume, run.surface, run.command));
-  write_png(file(".png"), images.radiance, images.size, exposure.value);
-  write_png(file("_error.png"), error_colours(images.airlight, truth.airlight), images.size, 1.0f);
+/// The previews of a run. @param ending of their names, before the format's
+void write_previews(const CompareRequest& request, const std::string& name, const std::string& ending,
+                    const frame::FrameImages& images, const Truth& truth, const Exposure& exposure) {
+  const auto file = [&](const char* kind) { return request.directory / (name + kind + ending + ".png"); };
+  write_png(file(""), images.radiance, images.size, exposure.value);
+  write_png(file("_error"), error_colours(images.airlight, truth.airlight), images.size, 1.0f);
 }
 
 std::vector<Run::DebugImage> write_debug_images(const CompareRequest& request, const Run& run,
@@ -98,6 +105,66 @@ void compare_times(std::vector<Run>& runs) {
   for (Run& run : runs) run.march_ratio = fastest_ms / run.cost.frame_ms;
 }
 
+/// Truths of a path's frames, of which it writes what they look like.
+std::vector<Truth> trace_path(const CompareRequest& request, Measurer& measurer, Comparison& comparison) {
+  const std::vector<scene::View>& views = request.path->views;
+  std::vector<Truth> truths;
+  ComparedPath& path = comparison.path.emplace();
+  path.seconds = request.path->seconds;
+  comparison.truth = {};
+  const double count = static_cast<double>(views.size());
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    measurer.look_at(views[i]);
+    const Truth& truth = truths.emplace_back(trace_truth(measurer.reference(), views[i]));
+    const frame::FrameImages images = images_of_truth(measurer, truth);
+    if (i == 0) comparison.exposure = choose_exposure(request, images.radiance);
+    write_png(request.directory / fmt::format("reference{}.png", scene::frame_ending(i)), images.radiance,
+              images.size, comparison.exposure.value);
+
+    const TruthFigures& figures = truth.figures;
+    path.frames.push_back(
+        {.time = request.path->time(i),
+         .motion = i == 0 ? scene::Motion::all : scene::motion_between(views[i - 1], views[i]),
+         .truth = figures});
+    TruthFigures& all = comparison.truth;
+    all.bound = std::max(all.bound, figures.bound);
+    all.ms += figures.ms;
+    all.shadows_per_pixel += figures.shadows_per_pixel / count;
+    all.lit_runs_per_pixel += figures.lit_runs_per_pixel / count;
+    all.mean_airlight += figures.mean_airlight / count;
+    all.floor += figures.floor / count;
+  }
+  return truths;
+}
+
+void measure_view(const CompareRequest& request, Measurer& measurer, const Truth& truth,
+                  const Exposure& exposure, const VolumeChoice& volume, const SurfaceChoice& surface,
+                  Run& run) {
+  const Measurer::Measurement measured = measurer.measure(volume, surface, request.frames);
+  run.cost = measured.cost;
+  run.errors = judge(measured.images, truth);
+  write_frame(request.directory / (run.name + ".exr"), measured.images,
+              metadata_of(request, run.volume, run.surface, run.command));
+  write_previews(request, run.name, "", measured.images, truth, exposure);
+  if (request.debug) run.debug_images = write_debug_images(request, run, measurer.debug_images(volume));
+}
+
+void measure_path(const CompareRequest& request, Measurer& measurer, const std::vector<Truth>& truths,
+                  const Exposure& exposure, const VolumeChoice& volume, const SurfaceChoice& surface,
+                  Run& run) {
+  run.path.resize(truths.size());
+  const auto look = [&](std::size_t i, const frame::FrameImages& images) {
+    run.path[i].errors = judge(images, truths[i]);
+    write_previews(request, run.name, scene::frame_ending(i), images, truths[i], exposure);
+    if (is_worse(run.path[i].errors.airlight, run.path[run.worst_frame].errors.airlight)) run.worst_frame = i;
+  };
+  const Measurer::PathMeasurement measured =
+      measurer.measure_path(volume, surface, request.path->views, request.frames, look);
+  run.cost = measured.cost;
+  for (std::size_t i = 0; i < run.path.size(); ++i) run.path[i].cost = measured.frames[i];
+  run.errors = run.path[run.worst_frame].errors;
+}
+
 }  // namespace
 
 Comparison compare(gpu::Context& context, const CompareRequest& request) {
@@ -114,9 +181,16 @@ Comparison compare(gpu::Context& context, const CompareRequest& request) {
   Measurer measurer(context, request.scene.geometry, request.view, request.shadow_map_size, request.progress,
                     request.cache);
   measurer.try_out(request.volumes, request.surfaces);
-  const Truth truth = trace_truth(measurer.reference(), request.view);
-  comparison.truth = truth.figures;
-  comparison.exposure = write_truth(request, measurer, truth);
+  std::vector<Truth> truths;
+  if (request.path) {
+    truths = trace_path(request, measurer, comparison);
+  } else {
+    const Truth& truth = truths.emplace_back(trace_truth(measurer.reference(), request.view));
+    const frame::FrameImages images = images_of_truth(measurer, truth);
+    comparison.truth = truth.figures;
+    comparison.exposure = choose_exposure(request, images.radiance);
+    write_truth(request, images, truth, comparison.exposure);
+  }
   if (comparison.exposure.is_of_black)
     comparison.report.warnings.push_back("the reference is black: " +
                                          why_black(request.scene.geometry, request.view));
@@ -133,11 +207,10 @@ Comparison compare(gpu::Context& context, const CompareRequest& request) {
       run.settings = volume.values();
       run.surface_settings = surface.values();
       run.command = command_of(request, run.name, volume, surface);
-      const Measurer::Measurement measured = measurer.measure(volume, surface, request.frames);
-      run.cost = measured.cost;
-      run.errors = judge(measured.images, truth);
-      write_images(request, run, measured.images, truth, comparison.exposure);
-      if (request.debug) run.debug_images = write_debug_images(request, run, measurer.debug_images(volume));
+      if (request.path)
+        measure_path(request, measurer, truths, comparison.exposure, volume, surface, run);
+      else
+        measure_view(request, measurer, truths[0], comparison.exposure, volume, surface, run);
       comparison.runs.push_back(std::move(run));
     }
   }

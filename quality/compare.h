@@ -15,10 +15,11 @@ struct CompareRequest {
   std::string scene_name;  ///< as the user named it
   const scene::Scene& scene;
   const scene::View& view;
+  const scene::Path* path;  ///< which begins with `view`; nullptr for none
   std::vector<VolumeChoice> volumes;
   std::vector<SurfaceChoice> surfaces;
   int shadow_map_size;              ///< side of a cube face [texels]
-  int frames;                       ///< timed a run, after warm-up
+  int frames;                       ///< timed a run, after warm-up; along a path, of each of its frames
   std::optional<float> exposure;    ///< of the PNG previews; automatic without
   std::filesystem::path directory;  ///< exists; gets the images
   std::filesystem::path cache;      ///< where the truth is kept; empty for nowhere
@@ -32,6 +33,10 @@ struct CompareRequest {
 /// the images: reference.exr and .png, and for each run NAME.exr, NAME.png and NAME_error.png
 /// (`error_colours`); where asked for, the debug images of each volume method, as NAME_IMAGE.exr, channel Y,
 /// and NAME_IMAGE.png, where the largest value is white.
+///
+/// Along a path: every frame of it is judged and timed, as Measurer::measure_path does. Of the images the PNG
+/// ones alone are written, of each frame, whose number ends their names, as in NAME_0007.png, and no debug
+/// images.
 /// @throws scene::Error as the methods do; (driver) before the reference is traced, where the driver cannot
 /// draw what is asked for
 Comparison compare(gpu::Context& context, const CompareRequest& request);

@@ -65,14 +65,22 @@ class DebugProbe : public frame::Airlight {
 Measurer::Measurer(gpu::Context& context, const scene::Geometry& geometry, const scene::View& view,
                    int shadow_map_size, Progress progress, const std::filesystem::path& cache)
     : context_(context),
-      view_(view),
-      progress_(progress),
-      frame_(context, geometry, shadow_map_size),
-      reference_(geometry, view, std::move(progress), cache) {}
+      geometry_(geometry),
+      view_(&view),
+      progress_(std::move(progress)),
+      cache_(cache),
+      frame_(context, geometry, shadow_map_size) {
+  look_at(view);
+}
+
+void Measurer::look_at(const scene::View& view) {
+  view_ = &view;
+  reference_.emplace(geometry_, view, progress_, cache_);
+}
 
 void Measurer::draw(frame::SurfaceShadow& shadow, frame::Airlight& airlight) {
   gpu::StageTimer off(nullptr);
-  frame_.render(view_, shadow, airlight, off);
+  frame_.render(*view_, shadow, airlight, off);
 }
 
 void Measurer::try_out(std::span<const VolumeChoice> volumes, std::span<const SurfaceChoice> surfaces) {
@@ -80,15 +88,15 @@ void Measurer::try_out(std::span<const VolumeChoice> volumes, std::span<const Su
   frame::NoAirlight no_airlight;
   draw(no_shadow, no_airlight);
   for (const VolumeChoice& choice : volumes)
-    if (choice.method->traits.runs_on_gpu) draw(no_shadow, *choice.make(context_, reference_));
+    if (choice.method->traits.runs_on_gpu) draw(no_shadow, *choice.make(context_, *reference_));
   for (const SurfaceChoice& choice : surfaces)
-    if (choice.method->traits.runs_on_gpu) draw(*choice.make(context_, reference_), no_airlight);
+    if (choice.method->traits.runs_on_gpu) draw(*choice.make(context_, *reference_), no_airlight);
   context_.finish();
 }
 
 frame::FrameImages Measurer::render(const VolumeChoice& volume, const SurfaceChoice& surface) {
-  const auto airlight = volume.make(context_, reference_);
-  const auto shadow = surface.make(context_, reference_);
+  const auto airlight = volume.make(context_, *reference_);
+  const auto shadow = surface.make(context_, *reference_);
   draw(*shadow, *airlight);
   return frame_.read();
 }
@@ -101,15 +109,15 @@ struct Measurer::TimedFrame {
 };
 
 Measurer::TimedFrame Measurer::render_timed(frame::SurfaceShadow& shadow, frame::Airlight& airlight,
-                                            bool with_stages) {
+                                            bool with_stages, frame::Resting resting) {
   gpu::StageTimer timer(with_stages ? &context_ : nullptr);
-  reference_.take_work();
+  reference_->take_work();
   context_.finish();
   const Clock::time_point start = Clock::now();
-  frame_.render(view_, shadow, airlight, timer);
+  frame_.render(*view_, shadow, airlight, timer, resting);
   context_.finish();
-  TimedFrame timed{milliseconds_since(start), timer.milliseconds(), {}, reference_.take_work()};
-  for (std::size_t light = 0; light < view_.lights.size(); ++light)
+  TimedFrame timed{milliseconds_since(start), timer.milliseconds(), {}, reference_->take_work()};
+  for (std::size_t light = 0; light < view_->lights.size(); ++light)
     timed.light_stages_ms.push_back(timer.milliseconds(light));
   // An image that was kept costs what it cost when it was traced.
   for (const auto& [light, kept] : timed.work.kept) {
@@ -123,10 +131,18 @@ Measurer::TimedFrame Measurer::render_timed(frame::SurfaceShadow& shadow, frame:
   return timed;
 }
 
+std::map<std::string, std::int64_t> Measurer::bytes_of(const frame::SurfaceShadow& shadow,
+                                                       const frame::Airlight& airlight) const {
+  std::map<std::string, std::int64_t> all = frame_.bytes();
+  for (const auto& [name, bytes] : airlight.bytes()) all[name] += bytes;
+  for (const auto& [name, bytes] : shadow.bytes()) all[name] += bytes;
+  return all;
+}
+
 Measurer::Measurement Measurer::measure(const VolumeChoice& volume, const SurfaceChoice& surface,
                                         int frames) {
-  const auto airlight = volume.make(context_, reference_);
-  const auto shadow = surface.make(context_, reference_);
+  const auto airlight = volume.make(context_, *reference_);
+  const auto shadow = surface.make(context_, *reference_);
   const auto progress = [&](double fraction) {
     if (progress_) progress_(fmt::format("{} × {}", volume.spec, surface.spec), fraction);
   };
@@ -153,7 +169,7 @@ Measurer::Measurement Measurer::measure(const VolumeChoice& volume, const Surfac
   measurement.images = frame_.read();
   cost.stages_ms = median_stages(
       staged, [](const TimedFrame& timed) -> const auto& { return timed.stages_ms; });
-  for (std::size_t light = 0; light < view_.lights.size(); ++light)
+  for (std::size_t light = 0; light < view_->lights.size(); ++light)
     cost.lights.push_back(
         {measurement.images.is_skipped[light],
          median_stages(
@@ -163,14 +179,83 @@ Measurer::Measurement Measurer::measure(const VolumeChoice& volume, const Surfac
   cost.rays = staged[0].work.airlight_rays;
   cost.self_error = staged[0].work.self_error;
   if (cost.rays > 0) cost.mrays_per_s = static_cast<double>(cost.rays) / (1e3 * median(tracing));
-  cost.bytes = frame_.bytes();
-  for (const auto& [name, bytes] : airlight->bytes()) cost.bytes[name] += bytes;
-  for (const auto& [name, bytes] : shadow->bytes()) cost.bytes[name] += bytes;
+  cost.bytes = bytes_of(*shadow, *airlight);
+  return measurement;
+}
+
+Measurer::PathMeasurement Measurer::measure_path(
+    const VolumeChoice& volume, const SurfaceChoice& surface, std::span<const scene::View> views, int plays,
+    const std::function<void(std::size_t, const frame::FrameImages&)>& look) {
+  const auto airlight = volume.method->make(context_, volume.options);
+  const auto shadow = surface.method->make(context_, surface.options);
+  PathMeasurement measurement;
+  std::vector<FrameCost>& frames = measurement.frames;
+  frames.resize(views.size());
+  Cost& cost = measurement.cost;
+  cost.lights.assign(views[0].lights.size(), {true, {}});
+  std::vector<std::vector<std::map<std::string, double>>> light_stages_ms(views.size());
+  std::vector<std::vector<double>> times(views.size());
+
+  // A play is the images, the stages or the times of all frames.
+  double tracing_ms = 0.0;
+  const auto play = [&](bool is_first, bool with_stages) {
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      look_at(views[i]);
+      lend(*reference_, *airlight);
+      lend(*reference_, *shadow);
+      const TimedFrame timed = render_timed(*shadow, *airlight, with_stages,
+                                            i == 0 ? frame::Resting::redrawn : frame::Resting::kept);
+      times[i].push_back(timed.ms);
+      if (with_stages) frames[i].stages_ms = timed.stages_ms;
+      if (with_stages) light_stages_ms[i] = timed.light_stages_ms;
+      if (is_first) {
+        frames[i].redrawn = frame_.redrawn();
+        cost.rays += timed.work.airlight_rays;
+        cost.self_error = std::max(cost.self_error, timed.work.self_error);
+        tracing_ms += timed.work.airlight_ms;
+        for (const auto& [name, bytes] : bytes_of(*shadow, *airlight))
+          cost.bytes[name] = std::max(cost.bytes[name], bytes);
+        const frame::FrameImages images = frame_.read();
+        for (std::size_t light = 0; light < cost.lights.size(); ++light)
+          cost.lights[light].is_skipped = cost.lights[light].is_skipped && images.is_skipped[light];
+        look(i, images);
+      }
+      if (progress_)
+        progress_(fmt::format("{} × {}", volume.spec, surface.spec),
+                  static_cast<double>(i + 1) / static_cast<double>(views.size()));
+    }
+  };
+  const auto median_times = [&] {
+    std::vector<double> medians;
+    for (const std::vector<double>& of_frame : times) medians.push_back(median(of_frame));
+    return medians;
+  };
+  play(true, true);
+  cost.frames = 1;
+  if (median(median_times()) <= k_slow_frame_ms) {
+    play(false, true);
+    times.assign(views.size(), {});
+    for (int i = 0; i < plays; ++i) play(false, false);
+    cost.frames = plays;
+  }
+
+  const std::vector<double> medians = median_times();
+  const double count = static_cast<double>(views.size());
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    frames[i].ms = medians[i];
+    cost.frame_ms += medians[i] / count;
+    for (const auto& [stage, ms] : frames[i].stages_ms) cost.stages_ms[stage] += ms / count;
+    for (std::size_t light = 0; light < cost.lights.size(); ++light)
+      for (const auto& [stage, ms] : light_stages_ms[i][light])
+        cost.lights[light].stages_ms[stage] += ms / count;
+  }
+  if (cost.rays > 0) cost.mrays_per_s = static_cast<double>(cost.rays) / (1e3 * tracing_ms);
+  cost.rays /= views.size();
   return measurement;
 }
 
 std::vector<frame::DebugImage> Measurer::debug_images(const VolumeChoice& volume) {
-  const auto airlight = volume.make(context_, reference_);
+  const auto airlight = volume.make(context_, *reference_);
   DebugProbe probe(*airlight);
   frame::NoShadow no_shadow;
   draw(no_shadow, probe);

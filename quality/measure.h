@@ -3,7 +3,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <map>
+#include <optional>
+#include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,14 +38,24 @@ struct Cost {
   double self_error = 0.0;   ///< reference::AirlightImage::self_error, of several lights the largest
 };
 
-/// Renders frames of one view by pairs of methods in turn, over one copy of the scene on the GPU, and times
-/// them.
+/// What one frame of a path costs.
+struct FrameCost {
+  double ms = 0.0;
+  std::map<std::string, double> stages_ms;
+  std::set<std::string> redrawn;  ///< see frame::Frame::redrawn
+};
+
+/// Renders frames of one view at a time by pairs of methods in turn, over one copy of the scene on the GPU,
+/// and times them.
 class Measurer {
  public:
   /// @param geometry, view kept by reference
   /// @param cache see SharedReference
   Measurer(gpu::Context& context, const scene::Geometry& geometry, const scene::View& view,
            int shadow_map_size, Progress progress, const std::filesystem::path& cache);
+
+  /// Another view, kept by reference; nothing is kept of the last one's reference.
+  void look_at(const scene::View& view);
 
   /// Draws one frame with each method of the GPU, so that what the driver cannot do is known before long
   /// work.
@@ -55,25 +70,44 @@ class Measurer {
   };
 
   /// A frame's time is the median over whole frames, after one frame of warm-up and a few with timed stages.
-  /// Where the first frame takes more than 2 s it is the only one.
+  /// Where the first frame takes more than 2 s it is the only one. Each frame draws all of its own.
   /// @param frames timed, after warm-up
   Measurement measure(const VolumeChoice& volume, const SurfaceChoice& surface, int frames);
+
+  struct PathMeasurement {
+    Cost cost;                      ///< means over the path's frames; of `bytes` the most
+    std::vector<FrameCost> frames;  ///< one a view
+  };
+
+  /// Plays a path: once for warm-up and images, once with timed stages, then `plays` times; a frame's time is
+  /// the median over those. Where half of the frames take more than 2 s the first play is the only one. What
+  /// rests from a frame to the next is not drawn anew; the first frame of a play draws all of its own.
+  /// @param views kept by reference; the last one is looked at afterwards
+  /// @param look called with each view's number and image
+  PathMeasurement measure_path(const VolumeChoice& volume, const SurfaceChoice& surface,
+                               std::span<const scene::View> views, int plays,
+                               const std::function<void(std::size_t, const frame::FrameImages&)>& look);
 
   /// Pictures of what a volume method holds: see frame::Airlight::debug_images. Draws one more frame.
   std::vector<frame::DebugImage> debug_images(const VolumeChoice& volume);
 
-  SharedReference& reference() { return reference_; }
+  SharedReference& reference() { return *reference_; }
 
  private:
   struct TimedFrame;
-  TimedFrame render_timed(frame::SurfaceShadow& shadow, frame::Airlight& airlight, bool with_stages);
+  TimedFrame render_timed(frame::SurfaceShadow& shadow, frame::Airlight& airlight, bool with_stages,
+                          frame::Resting resting = frame::Resting::redrawn);
+  std::map<std::string, std::int64_t> bytes_of(const frame::SurfaceShadow& shadow,
+                                               const frame::Airlight& airlight) const;
   void draw(frame::SurfaceShadow& shadow, frame::Airlight& airlight);
 
   gpu::Context& context_;
-  const scene::View& view_;
+  const scene::Geometry& geometry_;
+  const scene::View* view_;
   Progress progress_;
+  std::filesystem::path cache_;
   frame::Frame frame_;
-  SharedReference reference_;
+  std::optional<SharedReference> reference_;
 };
 
 }  // namespace airlight::quality

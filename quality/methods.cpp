@@ -138,6 +138,34 @@ Error Choice<MethodType>::refusal_error(const frame::Refusal& refusal) const {
                refusal.problem, refusal.remedy);
 }
 
+template <typename MethodType>
+void Choice<MethodType>::fit(std::span<const scene::View> views) {
+  if (views.size() == 1) return fit(views[0]);
+  const std::any given = options;
+  for (std::size_t frame = 0; frame < views.size(); ++frame) {
+    Choice fitted{spec, method, given};
+    try {
+      fitted.fit(views[frame]);
+    } catch (const Error& error) {
+      throw Error(error.exit_code, fmt::format("--path, frame {}", frame), error.what());
+    }
+    if (frame == 0) options = fitted.options;
+    for (const frame::Option& option : method->options) {
+      const frame::OptionValue value = option.get(method->const_address(fitted.options)),
+                               so_far = option.get(method->const_address(options));
+      if (value == so_far) continue;
+      const std::string where = fmt::format("{}, {}", spec, option.text.name);
+      const int *count = std::get_if<int>(&value), *count_so_far = std::get_if<int>(&so_far);
+      if (!count || !count_so_far)
+        throw Error(ExitCode::usage, where,
+                    fmt::format("it would be {} in the path's frame {} and {} before", frame::text_of(value),
+                                frame, frame::text_of(so_far)),
+                    "choose one for all frames");
+      if (*count > *count_so_far) option.set(method->address(options), where, fmt::format("{}", *count));
+    }
+  }
+}
+
 template struct Choice<VolumeMethod>;
 template struct Choice<SurfaceMethod>;
 

@@ -58,10 +58,15 @@ struct Choice {
     method->fit(options, view);
   }
 
+  /// Fits the options to all of the views: of counts that are automatic, the largest.
+  /// @throws scene::Error (usage) as for one view, naming the frame, and where a word would have to change
+  /// from view to view
+  void fit(std::span<const scene::View> views);
+
   /// @param reference lent to methods that trace rays
   auto make(const gpu::Context& context, SharedReference& reference) const {
     auto made = method->make(context, options);
-    if (auto* traced = dynamic_cast<Traced*>(made.get())) traced->borrow(reference);
+    lend(reference, *made);
     return made;
   }
 

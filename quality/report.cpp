@@ -1,5 +1,7 @@
 #include "quality/report.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -145,6 +147,97 @@ std::string figure(const std::string& file, const std::string& caption) {
       link(file), escape(caption));
 }
 
+/// A curve of each run over the frames of a path; a frame that has no value leaves a gap.
+template <typename Value>
+std::string chart(const Comparison& comparison, const char* title, const Value& value_of) {
+  static constexpr std::array k_colours = {"#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#ff7f0e", "#17becf"};
+  constexpr double k_width = 520.0, k_height = 180.0, k_left = 60.0, k_top = 10.0;
+  double most = 0.0;
+  for (const Run& run : comparison.runs)
+    for (const Run::Frame& frame : run.path)
+      if (const double value = value_of(frame); !std::isnan(value)) most = std::max(most, value);
+  if (most == 0.0) most = 1.0;
+  const auto frames = static_cast<double>(std::max<std::size_t>(comparison.path->frames.size(), 2) - 1);
+  std::string curves, legend;
+  for (std::size_t r = 0; r < comparison.runs.size(); ++r) {
+    const Run& run = comparison.runs[r];
+    const char* colour = k_colours[r % k_colours.size()];
+    std::string points;
+    const auto end_of_curve = [&] {
+      if (!points.empty())
+        curves += fmt::format("<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\" points=\"{}\"/>\n",
+                              colour, points);
+      points.clear();
+    };
+    for (std::size_t i = 0; i < run.path.size(); ++i) {
+      const double value = value_of(run.path[i]);
+      if (std::isnan(value)) {
+        end_of_curve();
+        continue;
+      }
+      points += fmt::format("{:.1f},{:.1f} ", k_left + k_width * static_cast<double>(i) / frames,
+                            k_top + k_height * (1.0 - value / most));
+    }
+    end_of_curve();
+    legend += fmt::format("<span style=\"color:{}\">■ {} × {}</span> ", colour, escape(run.volume),
+                          escape(run.surface));
+  }
+  return fmt::format(
+      "<figure><svg viewBox=\"0 0 {} {}\" font-size=\"11\" fill=\"#555\">\n"
+      "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#bbb\"/>\n"
+      "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">{:.3g}</text><text x=\"{}\" y=\"{}\" "
+      "text-anchor=\"end\">0</text>\n"
+      "<text x=\"{}\" y=\"{}\">0</text><text x=\"{}\" y=\"{}\" text-anchor=\"end\">frame {}</text>\n"
+      "{}</svg><figcaption>{}: {}</figcaption></figure>\n",
+      k_left + k_width + 10.0, k_top + k_height + 20.0, k_left, k_top, k_width, k_height, k_left - 6.0,
+      k_top + 8.0, most, k_left - 6.0, k_top + k_height, k_left, k_top + k_height + 15.0, k_left + k_width,
+      k_top + k_height + 15.0, comparison.path->frames.size() - 1, curves, escape(title), legend);
+}
+
+/// Time and error along the path.
+std::string path_section(const Comparison& comparison) {
+  const ComparedPath& path = *comparison.path;
+  std::string html = fmt::format(
+      "<h2>Along the path</h2>\n<p>{} frames in {:g} s. What rests from a frame to the next, a shadow map or "
+      "a "
+      "volume, is not drawn anew.</p>\n<div class=\"images\">\n",
+      path.frames.size(), path.seconds);
+  html += chart(comparison, "frame [ms]", [](const Run::Frame& frame) { return frame.cost.ms; });
+  html += chart(comparison, "rrmse [%]",
+                [](const Run::Frame& frame) { return 100.0 * frame.errors.airlight.rrmse; });
+  html +=
+      "</div>\n<div class=\"scroll\"><table><thead><tr><th class=\"name\">volume</th><th "
+      "class=\"name\">surface</th><th>frame [ms]</th><th>worst</th><th>rrmse [%]</th><th>worst</th>"
+      "<th>same-surface rrmse [%]</th><th>worst</th><th>worst frame</th></tr></thead><tbody>\n";
+  for (const Run& run : comparison.runs) {
+    const PathSpreads spreads = path_spreads(run);
+    html += "<tr>" + cell(run.volume) + cell(run.surface) + cell(fmt::format("{:.2f}", spreads.ms.mean)) +
+            cell(fmt::format("{:.2f}", spreads.ms.worst)) +
+            cell(error_text(spreads.rrmse.mean, comparison.truth.bound)) +
+            cell(error_text(spreads.rrmse.worst, comparison.truth.bound)) +
+            cell(error_text(spreads.same_surface_rrmse.mean, comparison.truth.bound)) +
+            cell(error_text(spreads.same_surface_rrmse.worst, comparison.truth.bound)) +
+            cell(fmt::format("{}", run.worst_frame)) + "</tr>\n";
+  }
+  html +=
+      "</tbody></table></div>\n<div class=\"scroll\"><table><thead><tr><th class=\"name\">volume</th><th "
+      "class=\"name\">surface</th><th>what moves</th><th>frames</th><th>shadow map redrawn in</th><th>volume "
+      "redrawn in</th><th>frame [ms]</th></tr></thead><tbody>\n";
+  for (const Run& run : comparison.runs) {
+    for (const MotionShare& share : shares_of_motion(path, run)) {
+      html += "<tr>" + cell(run.volume) + cell(run.surface) +
+              cell(std::string(scene::motion_name(share.motion))) + cell(fmt::format("{}", share.frames)) +
+              cell(fmt::format("{}", share.shadow_maps)) + cell(fmt::format("{}", share.volumes)) +
+              cell(fmt::format("{:.2f}", share.ms)) + "</tr>\n";
+    }
+  }
+  return html +
+         "</tbody></table></div>\n<p>Mean and worst over frames. What moves, since the frame before; of the "
+         "first, "
+         "all. Below, times are means over the frames, errors those of the worst frame, which the images "
+         "show.</p>\n";
+}
+
 std::string run_section(const Run& run) {
   std::string settings, debug_images;
   const auto add_settings = [&](const char* prefix, const std::map<std::string, frame::OptionValue>& values) {
@@ -153,15 +246,18 @@ std::string run_section(const Run& run) {
   };
   add_settings("", run.settings);
   add_settings("surface ", run.surface_settings);
+  const std::string frame = run.path.empty() ? "" : scene::frame_ending(run.worst_frame);
+  const std::string which = run.path.empty() ? "" : fmt::format(", frame {}, the worst", run.worst_frame);
   for (const Run::DebugImage& image : run.debug_images) {
     debug_images += figure(image.name + ".png", fmt::format("{}; white is {:.3g} %", image.caption,
                                                             100.0 * static_cast<double>(image.white)));
   }
   return fmt::format("<section class=\"run\"><h3>{} × {}</h3>\n<p>{}</p><div class=\"images\">\n",
                      escape(run.volume), escape(run.surface), escape(settings)) +
-         figure(run.name + ".png", "radiance") + figure("reference.png", "radiance, reference") +
-         figure(run.name + "_error.png", "airlight error, scale as above") + debug_images +
-         fmt::format("</div>\n<code>{}</code></section>\n", escape(run.command));
+         figure(run.name + frame + ".png", "radiance" + which) +
+         figure("reference" + frame + ".png", "radiance, reference" + which) +
+         figure(run.name + "_error" + frame + ".png", "airlight error, scale as above" + which) +
+         debug_images + fmt::format("</div>\n<code>{}</code></section>\n", escape(run.command));
 }
 
 /// The fields of a part of the view.
@@ -213,6 +309,7 @@ std::string report_html(const Comparison& comparison) {
 
   if (truth.is_dark()) html += "<p>" + escape(dark_text(truth)) + "</p>\n";
 
+  if (comparison.path) html += path_section(comparison);
   html +=
       "<h2>Time and error</h2>\n<div class=\"scroll\"><table><thead><tr><th class=\"name\">volume</th>"
       "<th class=\"name\">surface</th><th>frame [ms]</th><th>frames</th><th>march/frame</th><th>Mrays/s</th>"

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <set>
 
 #include <fmt/format.h>
@@ -70,6 +71,30 @@ Json lights_json(const Run& run, const scene::View& view) {
   return json;
 }
 
+Json spread_json(const Spread& spread) {
+  return {{"mean", number(spread.mean)}, {"worst", number(spread.worst)}};
+}
+
+Json path_json(const Run& run) {
+  Json frames = Json::array();
+  for (const Run::Frame& frame : run.path) {
+    frames.push_back({{"frame_ms", frame.cost.ms},
+                      {"stages_ms", frame.cost.stages_ms},
+                      {"redrawn", frame.cost.redrawn},
+                      {"rmse", frame.errors.airlight.rmse},
+                      {"rrmse", number(frame.errors.airlight.rrmse)},
+                      {"bias", number(frame.errors.airlight.bias)},
+                      {"same_surface_rrmse", number(frame.errors.same_surface.rrmse)},
+                      {"wrong_pixels", frame.errors.surface.wrong_pixels}});
+  }
+  const PathSpreads spreads = path_spreads(run);
+  return {{"frame_ms", spread_json(spreads.ms)},
+          {"rrmse", spread_json(spreads.rrmse)},
+          {"same_surface_rrmse", spread_json(spreads.same_surface_rrmse)},
+          {"worst_frame", run.worst_frame},
+          {"frames", frames}};
+}
+
 Json run_json(const Run& run, const scene::View& view) {
   const AirlightError& error = run.errors.airlight;
   Json json = {
@@ -112,6 +137,7 @@ Json run_json(const Run& run, const scene::View& view) {
   }
   if (run.cost.self_error > 0.0) json["self_error"] = run.cost.self_error;
   if (run.march_ratio > 0.0) json["march_ratio"] = run.march_ratio;
+  if (!run.path.empty()) json["path"] = path_json(run);
   for (const Run::DebugImage& image : run.debug_images)
     json["debug_images"].push_back(
         {{"name", image.name}, {"caption", image.caption}, {"white", single(image.white)}});
@@ -137,7 +163,82 @@ std::string layout(const std::vector<std::vector<std::string>>& rows, std::size_
   return text;
 }
 
+/// Time and error of each run along a path, and apart for each motion from frame to frame.
+std::string path_tables(const Comparison& comparison) {
+  const ComparedPath& path = *comparison.path;
+  const auto error = [&](double value) { return error_text(value, comparison.truth.bound); };
+  std::string text =
+      fmt::format("path: {} frames in {:g} s, mean and worst\n", path.frames.size(), path.seconds);
+  std::vector<std::vector<std::string>> rows = {{"volume", "surface", "frame ms", "worst", "rrmse %", "worst",
+                                                 "same-surface rrmse %", "worst", "worst frame"}};
+  for (const Run& run : comparison.runs) {
+    const PathSpreads spreads = path_spreads(run);
+    rows.push_back({run.volume, run.surface, fmt::format("{:.2f}", spreads.ms.mean),
+                    fmt::format("{:.2f}", spreads.ms.worst), error(spreads.rrmse.mean),
+                    error(spreads.rrmse.worst), error(spreads.same_surface_rrmse.mean),
+                    error(spreads.same_surface_rrmse.worst), fmt::format("{}", run.worst_frame)});
+  }
+  text += layout(rows, 2);
+
+  rows.assign(1, {"volume", "surface", "what moves", "frames", "shadow map", "volume redrawn", "frame ms"});
+  for (const Run& run : comparison.runs) {
+    for (const MotionShare& share : shares_of_motion(path, run)) {
+      rows.push_back({run.volume, run.surface, std::string(scene::motion_name(share.motion)),
+                      fmt::format("{}", share.frames), fmt::format("{}", share.shadow_maps),
+                      fmt::format("{}", share.volumes), fmt::format("{:.2f}", share.ms)});
+    }
+  }
+  return text + '\n' + layout(rows, 3) +
+         "what moves: since the frame before; of the first, all. shadow map, volume redrawn: in how many of "
+         "these "
+         "frames.\n\n";
+}
+
 }  // namespace
+
+bool is_worse(const AirlightError& a, const AirlightError& b) {
+  if (a.is_dark != b.is_dark) return b.is_dark;
+  return a.is_dark ? a.rmse > b.rmse : a.rrmse > b.rrmse;
+}
+
+PathSpreads path_spreads(const Run& run) {
+  const auto spread = [&](const auto& value_of) {
+    Spread over{0.0, 0.0};
+    int frames = 0;
+    for (const Run::Frame& frame : run.path) {
+      const double value = value_of(frame);
+      if (std::isnan(value)) continue;
+      over.mean += value;
+      over.worst = std::max(over.worst, value);
+      ++frames;
+    }
+    constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
+    return frames == 0 ? Spread{k_none, k_none} : Spread{over.mean / frames, over.worst};
+  };
+  return {
+      .ms = spread([](const Run::Frame& frame) { return frame.cost.ms; }),
+      .rrmse = spread([](const Run::Frame& frame) { return frame.errors.airlight.rrmse; }),
+      .same_surface_rrmse = spread([](const Run::Frame& frame) { return frame.errors.same_surface.rrmse; })};
+}
+
+std::vector<MotionShare> shares_of_motion(const ComparedPath& path, const Run& run) {
+  std::vector<MotionShare> shares;
+  for (const scene::Motion motion :
+       {scene::Motion::all, scene::Motion::lights, scene::Motion::camera, scene::Motion::nothing}) {
+    MotionShare share{.motion = motion};
+    for (std::size_t i = 0; i < run.path.size(); ++i) {
+      if (path.frames[i].motion != motion) continue;
+      const FrameCost& cost = run.path[i].cost;
+      ++share.frames;
+      share.shadow_maps += cost.redrawn.contains("shadow_map");
+      share.volumes += cost.redrawn.contains("volume");
+      share.ms += cost.ms;
+    }
+    share.ms /= std::max(share.frames, 1);
+    if (share.frames > 0) shares.push_back(share);
+  }
+  return shares;
+}
 
 std::string version() {
   return AIRLIGHT_VERSION;
@@ -197,7 +298,7 @@ std::string error_text(double rrmse, double bound) {
 std::string results_json(const Comparison& comparison) {
   Json runs = Json::array();
   for (const Run& run : comparison.runs) runs.push_back(run_json(run, comparison.view));
-  const Json json = {
+  Json json = {
       {"airlight", version()},
       {"scene",
        {{"name", comparison.scene},
@@ -221,6 +322,16 @@ std::string results_json(const Comparison& comparison) {
         {"floor", comparison.truth.floor},
         {"dark", comparison.truth.is_dark()}}},
       {"runs", runs}};
+  if (comparison.path) {
+    Json frames = Json::array();
+    for (const ComparedPath::Frame& frame : comparison.path->frames)
+      frames.push_back({{"time", frame.time},
+                        {"moves", scene::motion_name(frame.motion)},
+                        {"bound", number(frame.truth.bound)},
+                        {"mean_airlight", frame.truth.mean_airlight},
+                        {"dark", frame.truth.is_dark()}});
+    json["path"] = {{"seconds", comparison.path->seconds}, {"frames", frames}};
+  }
   // File names need not be UTF-8; JSON must be.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -234,6 +345,8 @@ std::string results_table(const Comparison& comparison) {
       "reference: {:.1f} shadows and {:.1f} lit runs a view ray in {:.0f} ms, own rrmse below "
       "{:.2g} %\n\n",
       truth.shadows_per_pixel, truth.lit_runs_per_pixel, truth.ms, 100.0 * truth.bound);
+
+  if (comparison.path) text += path_tables(comparison);
 
   // What each run cost and how far off it is.
   std::vector<std::vector<std::string>> rows = {{"volume", "surface", "frame ms", "march/frame", "Mrays/s",
@@ -283,6 +396,8 @@ std::string results_table(const Comparison& comparison) {
       "other\n"
       "way round, of {} that both see.\n",
       truth.mean_airlight, pixels);
+  if (comparison.path)
+    text += "Along a path: frame ms and stages are means over its frames, errors those of the worst frame.\n";
   if (truth.is_dark()) text += dark_text(truth) + "\n";
   return text;
 }

@@ -11,6 +11,7 @@
 #include "gpu/context.h"
 #include "quality/judge.h"
 #include "quality/measure.h"
+#include "scene/path.h"
 #include "scene/scene.h"
 
 namespace airlight::quality {
@@ -24,6 +25,11 @@ struct Run {
     std::string caption;
     float white;  ///< the value that is white in the PNG
   };
+  /// A frame of the path.
+  struct Frame {
+    FrameCost cost;
+    Errors errors;
+  };
   std::string volume, surface;                                 ///< specs, as the user wrote them
   std::string name;                                            ///< stem of its images' file names
   std::map<std::string, frame::OptionValue> settings;          ///< what the volume method was told
@@ -33,8 +39,33 @@ struct Run {
   bool is_yardstick = false;  ///< whether its frame time is what march_ratio divides
   Cost cost;
   double march_ratio = 0.0;  ///< frame time of the fastest reference-march / frame_ms; 0 when none was run
-  Errors errors;
+  Errors errors;             ///< of a path's frames those of the worst
   std::vector<DebugImage> debug_images;
+  std::vector<Frame> path;      ///< its frames; empty without one
+  std::size_t worst_frame = 0;  ///< of a path: the one with the largest error of airlight
+};
+
+/// What the worst of errors is told by: rrmse, unless the truth is dark; rmse decides among dark ones.
+bool is_worse(const AirlightError& a, const AirlightError& b);
+
+/// Over a path's frames; NaN, of a dark one, does not count, and is what is left where all are dark.
+struct Spread {
+  double mean, worst;
+};
+struct PathSpreads {
+  Spread ms, rrmse, same_surface_rrmse;
+};
+PathSpreads path_spreads(const Run& run);
+
+/// A path that views were compared along.
+struct ComparedPath {
+  struct Frame {
+    double time;           ///< [s]
+    scene::Motion motion;  ///< since the frame before; of the first one all is new
+    TruthFigures truth;
+  };
+  double seconds = 0.0;
+  std::vector<Frame> frames;
 };
 
 struct Exposure {
@@ -42,6 +73,17 @@ struct Exposure {
   bool is_automatic = false;  ///< chosen by `automatic_exposure`
   bool is_of_black = false;   ///< whether the reference is black, so that any will do
 };
+
+/// The frames of a path that one motion leads to.
+struct MotionShare {
+  scene::Motion motion;
+  int frames = 0;
+  int shadow_maps = 0, volumes = 0;  ///< in how many of them they were redrawn
+  double ms = 0.0;                   ///< mean time of a frame
+};
+
+/// Those of the motions that there are, the most restless first.
+std::vector<MotionShare> shares_of_motion(const ComparedPath& path, const Run& run);
 
 /// What `airlight compare` found.
 struct Comparison {
@@ -53,8 +95,9 @@ struct Comparison {
   Exposure exposure;
   gpu::Device device;
   unsigned cores = 0;
-  TruthFigures truth;
+  TruthFigures truth;  ///< over all of a path: the largest bound, all of the time, means of what else
   std::vector<Run> runs;
+  std::optional<ComparedPath> path;  ///< whose first frame is `view`
 };
 
 /// The program's version.

@@ -83,6 +83,12 @@ class Traced {
   virtual void borrow(SharedReference& shared) = 0;
 };
 
+/// Lends to the method, where it is one that traces rays.
+template <typename MadeMethod>
+void lend(SharedReference& shared, MadeMethod& method) {
+  if (auto* traced = dynamic_cast<Traced*>(&method)) traced->borrow(shared);
+}
+
 /// `reference`: the truth, without sampling.
 frame::AirlightMethod reference_method();
 

@@ -90,6 +90,14 @@ Box bounds(const Geometry& geometry) {
   return box;
 }
 
+bool shine_alike(const Light& a, const Light& b) {
+  Light as_bright = a;
+  as_bright.name = b.name;
+  as_bright.intensity = b.intensity;
+  as_bright.irradiance = b.irradiance;
+  return as_bright == b;
+}
+
 glm::dvec3 direction_to(const Light& light, glm::dvec3 from) {
   return is_sun(light) ? light.towards : glm::normalize(light.position - from);
 }

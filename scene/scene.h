@@ -62,6 +62,7 @@ struct Camera {
   glm::dvec3 target{0.0, 0.0, -1.0};  ///< any point straight ahead, world space [m]
   glm::dvec3 up{0.0, 1.0, 0.0};       ///< need not be perpendicular to the view
   double vertical_fov_degrees = 45.0;
+  bool operator==(const Camera&) const = default;
 };
 
 /// The orthonormal axes of a camera and the slopes of its image's edges.
@@ -71,6 +72,7 @@ struct Camera {
 struct CameraFrame {
   glm::dvec3 eye, right, up, forward;
   double half_width, half_height;  ///< tangents of half the horizontal and vertical fields of view
+  bool operator==(const CameraFrame&) const = default;
 };
 
 /// @throws Error (usage) when eye and target coincide, up is parallel to the view, the field of view is not
@@ -95,6 +97,7 @@ struct Cone {
   glm::dvec3 axis{0.0, -1.0, 0.0};         ///< which way it shines, world axes; unit length
   double inner = 0.0;                      ///< [rad], from 0 to `outer`
   double outer = 0.25 * std::numbers::pi;  ///< [rad], above 0, at most π/2
+  bool operator==(const Cone&) const = default;
 };
 
 struct Light {
@@ -113,6 +116,7 @@ struct Light {
   std::optional<Cone> cone = {};  ///< of a point: a spot
   /// Of a point [m]: light at the distance r is multiplied by max(1 − (r / range)⁴, 0), as glTF's range does.
   std::optional<double> range = {};
+  bool operator==(const Light&) const = default;
 };
 
 inline Light point_light(std::string name, glm::dvec3 position, glm::vec3 intensity) {
@@ -129,6 +133,9 @@ inline Light sun(std::string name, glm::dvec3 towards, glm::vec3 irradiance) {
 inline bool is_sun(const Light& light) {
   return light.kind == LightKind::sun;
 }
+
+/// Whether two lights differ in nothing but how bright they are, so that one's shadows are the other's.
+bool shine_alike(const Light& a, const Light& b);
 
 /// Unit direction from a point to the light.
 /// @param from world space [m], not where the light is
@@ -162,6 +169,7 @@ struct Medium {
   float rayleigh_weight = 0.5f;
   /// Height y of the layer's top, world space [m]: the medium fills what lies below. Without, all of space.
   std::optional<double> top = {};
+  bool operator==(const Medium&) const = default;
 };
 
 /// What an importer dropped or could not represent: shown to the user, kept with the results.

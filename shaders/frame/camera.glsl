@@ -18,10 +18,16 @@ struct CameraBlock {
   float near;        // depth [m] below which the G-buffer no longer orders surfaces
 };
 
-// Position relative to the eye of a world-space position. Exact where the two are close (Sterbenz), if subtracted in this order.
-FUNCTION vec3 eye_relative(IN(CameraBlock) camera, vec3 world) {
-  PRECISE vec3 relative = (world - camera.eye_high) - camera.eye_low;
+// A world-space position relative to another one, which is high + low. Exact where the two are close (Sterbenz), if subtracted in
+// this order.
+FUNCTION vec3 relative_to(vec3 high, vec3 low, vec3 world) {
+  PRECISE vec3 relative = (world - high) - low;
   return relative;
+}
+
+// Position relative to the eye of a world-space position.
+FUNCTION vec3 eye_relative(IN(CameraBlock) camera, vec3 world) {
+  return relative_to(camera.eye_high, camera.eye_low, world);
 }
 
 // Unit direction of the view ray through a point of the image, in pixels from its top left corner; pixel centres lie

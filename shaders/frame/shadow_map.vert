@@ -5,16 +5,18 @@
 #include "frame/shadow_plane.glsl"
 
 layout(constant_id = 0) const bool k_plane = false;
+// Of a cube, which is a function of the light alone: the eye's rounding is none of its own.
 layout(location = 0) uniform int face;
+layout(location = 1) uniform vec3 light_high;  // the light, world space [m], rounded to float …
+layout(location = 2) uniform vec3 light_low;   // … and what the rounding left
 layout(location = 0) in vec3 position;
 
 void main() {
-  vec3 point = eye_relative(camera, position);
   if (k_plane) {
-    gl_Position = plane_clip(light, point);
+    gl_Position = plane_clip(light, eye_relative(camera, position));
     return;
   }
-  vec3 d = point - light.from_eye;
+  vec3 d = relative_to(light_high, light_low, position);
   int axis = face >> 1;
   vec3 rotated = axis == 0 ? d.xyz : axis == 1 ? d.yzx : d.zxy;  // (along, u, v)
   float depth = (face & 1) == 0 ? rotated.x : -rotated.x;

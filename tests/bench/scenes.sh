@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The figures of README.md and docs/figures.md:
-# `tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|curves|cost|leaks|causes [OUT]`.
+# `tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|curves|cost|leaks|causes|path [OUT]`.
 # The paper's Tables 2 to 4 and the bandwidth: build/release/tests/bench/airlight_tables, after ./test.
 #
 # truth     the exact reference against itself refined, against rays, 256×256 and 512×512 pixels
@@ -151,8 +151,14 @@ case ${1:-} in
         --volume "$fine" --quiet
     done
     ;;
+  path)
+    for scene in window sponza; do
+      compare "$scene" --size 512x512 --shadow-map 2048 -o "$out/path_$scene" --frames 3 --quiet \
+        --path tests/bench/rest_$scene.toml --volume vsv,vsv:ranges=full:theta-cells=equal
+    done
+    ;;
   *)
-    echo "usage: tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|curves|cost|leaks|causes [OUT]" >&2
+    echo "usage: tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|curves|cost|leaks|causes|path [OUT]" >&2
     exit 2
     ;;
 esac

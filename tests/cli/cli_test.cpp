@@ -1168,5 +1168,109 @@ TEST_F(Driver, MemoryThatDoesNotSufficeIsNamedBeforeItIsWoken) {
 }
 #endif
 
+/// A path through `cornell`: all moves, then the camera, then nothing.
+class Paths : public CommandLine {
+ protected:
+  void SetUp() override {
+    CommandLine::SetUp();
+    std::ofstream(file("path.toml")) << "frames = 5\nseconds = 4\n"
+                                        "[[light]]\ntime = 0\nposition = [0, 1.8, 0]\n"
+                                        "[[light]]\ntime = 1\nposition = [0.2, 1.7, 0]\n"
+                                        "[[camera]]\ntime = 0\neye = [0, 1, 4.2]\ntarget = [0, 1, 0]\n"
+                                        "[[camera]]\ntime = 2\neye = [0.5, 1, 4]\n";
+  }
+};
+
+TEST_F(Paths, RendersNumberedImagesOfOneExposure) {
+  const Result result = small({"render", "cornell", "--path", "path.toml", "-o", "out.exr"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  std::vector<Image> images;
+  for (const char* name : {"out_0000", "out_0001", "out_0002", "out_0003", "out_0004"}) {
+    EXPECT_TRUE(fs::exists(file(std::string(name) + ".png"))) << name;
+    images.push_back(quality::read_exr(file(std::string(name) + ".exr")));
+  }
+  EXPECT_FALSE(fs::exists(file("out.exr")));
+  EXPECT_FALSE(fs::exists(file("out_0005.exr")));
+  for (const Image& image : images)
+    EXPECT_EQ(image.metadata.at("airlight.exposure"), images[0].metadata.at("airlight.exposure"));
+  EXPECT_EQ(images[0].metadata.at("airlight.eye"), "0,1,4.2");
+  EXPECT_EQ(images[4].metadata.at("airlight.eye"), "0.5,1,4");
+  EXPECT_NE(images[0].channels.at("airlight.G"), images[1].channels.at("airlight.G"));
+  EXPECT_EQ(images[2].channels, images[4].channels) << "nothing moves";
+
+  // What was kept shows in no image.
+  const Image alone =
+      render({"--eye", "0.5,1,4", "--target", "0,1,0", "--light-position", "0.2,1.7,0", "--intensity",
+              images[4].metadata.at("airlight.intensity"), "--fov", images[4].metadata.at("airlight.fov")});
+  EXPECT_EQ(images[4].channels, alone.channels);
+}
+
+TEST_F(Paths, AreComparedFrameByFrame) {
+  const Json results = compare(
+      {"--path", "path.toml", "--volume", "none,vsv,vsv:populate=conservative,reference-march:steps=64"});
+  EXPECT_THAT(tests::schema_violations(results, Json::parse(read_text(AIRLIGHT_SCHEMA))), IsEmpty());
+  std::vector<std::string> moves;
+  for (const Json& frame : results["path"]["frames"]) moves.push_back(frame["moves"]);
+  EXPECT_THAT(moves, testing::ElementsAre("all", "all", "camera", "nothing", "nothing"));
+  EXPECT_EQ(results["path"]["frames"][3]["time"], 3.0);
+  for (const Json& run : results["runs"]) {
+    const Json& path = run["path"];
+    ASSERT_EQ(path["frames"].size(), 5u);
+    std::vector<Json> redrawn;
+    double mean = 0.0, worst = 0.0;
+    for (const Json& frame : path["frames"]) {
+      redrawn.push_back(frame["redrawn"]);
+      mean += frame["frame_ms"].get<double>() / 5.0;
+      if (frame["rrmse"].is_number()) worst = std::max(worst, frame["rrmse"].get<double>());
+    }
+    EXPECT_NEAR(path["frame_ms"]["mean"].get<double>(), mean, 1e-6 * mean);
+    EXPECT_EQ(path["rrmse"]["worst"], worst);
+    EXPECT_EQ(run["error"]["airlight"]["rrmse"], worst);
+    const bool has_volume = run["volume"].get<std::string>().starts_with("vsv");
+    const Json map = {"shadow_map"}, both = {"shadow_map", "volume"}, volume = {"volume"},
+               nothing = Json::array();
+    EXPECT_EQ(redrawn[0], has_volume ? both : map) << run["volume"];
+    EXPECT_EQ(redrawn[1], has_volume ? both : map) << run["volume"];
+    EXPECT_EQ(redrawn[2], has_volume ? volume : nothing) << run["volume"];
+    EXPECT_EQ(redrawn[3], nothing) << run["volume"];
+    const std::string name = run["name"];
+    for (const std::string& image : {name + "_0004.png", name + "_error_0004.png"})
+      EXPECT_TRUE(fs::exists(file("out/" + image))) << image;
+  }
+  EXPECT_TRUE(fs::exists(file("out/reference_0004.png")));
+  EXPECT_THAT(read_text(file("out/report.html")), HasSubstr("Along the path"));
+}
+
+TEST_F(Paths, OrdinaryFramesDrawAllOfTheirOwn) {
+  const Json results = compare({"--volume", "vsv"});
+  EXPECT_FALSE(results.contains("path"));
+  for (const char* stage : {"shadow_map", "populate", "scan"})
+    EXPECT_TRUE(results["runs"][0]["stages_ms"].contains(stage))
+        << "a frame of a resting view costs " << stage;
+}
+
+TEST_F(Paths, FitWhatIsAutomaticToAllFrames) {
+  std::ofstream(file("zoom.toml")) << "frames = 3\nseconds = 2\n[[camera]]\ntime = 0\nfov = 60\n[[camera]]\n"
+                                      "time = 1\nfov = 20\n[[camera]]\ntime = 2\nfov = 60\n";
+  const auto alpha = [&](const Words& words) {
+    Words all = {"--volume", "vsv", "--alpha", "auto", "--frames", "1"};
+    all.insert(all.end(), words.begin(), words.end());
+    return compare(all)["runs"][0]["settings"]["alpha"].get<int>();
+  };
+  EXPECT_EQ(alpha({"--path", "zoom.toml"}), std::max(alpha({"--fov", "60"}), alpha({"--fov", "20"})));
+}
+
+TEST_F(Paths, ThatCannotBeAreErrors) {
+  std::ofstream(file("bad.toml")) << "frames = 5\nseconds = 4\n[[camera]]\ntime = 0\nroll = 3\n";
+  expect_one_line_error(airlight({"render", "cornell", "--path", "bad.toml", "-o", "x.exr"}), 3);
+  std::ofstream(file("into.toml"))
+      << "frames = 3\nseconds = 4\n[[light]]\ntime = 0\nposition = [0, 1, 4.2]\n";
+  const Result result = airlight({"compare", "cornell", "--path", "into.toml"});
+  expect_one_line_error(result, 3);
+  EXPECT_THAT(result.err, HasSubstr("into.toml, frame 0 (0 s)"));
+  expect_one_line_error(airlight({"compare", "cornell", "--path", "path.toml", "--debug"}), 2);
+  expect_one_line_error(airlight({"render", "cornell", "--path", "none.toml", "-o", "x.exr"}), 3);
+}
+
 }  // namespace
 }  // namespace airlight

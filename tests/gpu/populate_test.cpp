@@ -134,7 +134,7 @@ Seen largest_phi(const scene::View& view, const std::vector<float>& distance,
 void expect_largest_phi(const scene::Geometry& geometry, const scene::View& view) {
   look_into_frame(geometry, view, 16, [&](const frame::FrameInputs& inputs) {
     constexpr std::size_t k_planes = 8;
-    const ShadowVolume volume(inputs.context.limits(), {.resolution = {8, k_planes, 128}});
+    ShadowVolume volume(inputs.context.limits(), {.resolution = {8, k_planes, 128}});
     const shaders::EpipolarBlock space = volume.find_ranges(inputs);
     const Seen expected = largest_phi(view, tests::distances(inputs), space, k_planes);
     const auto range = volume.grid().phi_range().read<float>();

@@ -1,5 +1,7 @@
 #include "quality/report.h"
 
+#include <limits>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -63,6 +65,25 @@ TEST(Report, EscapesWhatTheUserTyped) {
 
 TEST(Report, ClaimsNoErrorBelowThatOfTheReference) {
   EXPECT_THAT(report_html(one_run()), HasSubstr("<td>&lt; 0.1</td>"));
+}
+
+TEST(Report, DrawsTimeAndErrorAlongAPath) {
+  Comparison comparison = one_run();
+  comparison.path.emplace().seconds = 1.0;
+  comparison.path->frames.resize(3);
+  Run& run = comparison.runs[0];
+  run.debug_images = {};
+  run.path.resize(3);
+  run.path[0].cost.ms = 5.0;
+  run.path[1].cost.ms = 10.0;
+  run.path[2].errors.airlight.rrmse = std::numeric_limits<double>::quiet_NaN();
+  run.worst_frame = 1;
+  const std::string html = report_html(comparison);
+  EXPECT_THAT(html, HasSubstr("points=\"60.0,100.0 320.0,10.0 580.0,190.0 \""));
+  EXPECT_THAT(html, HasSubstr("points=\"60.0,190.0 320.0,190.0 \"")) << "the dark frame has no error";
+  EXPECT_THAT(html, HasSubstr("src=\"vsv_alpha-64%2Bshadow-map_error_0001.png\""));
+  EXPECT_THAT(html, HasSubstr("src=\"reference_0001.png\""));
+  EXPECT_THAT(html, Not(HasSubstr("src=\"reference.png\"")));
 }
 
 TEST(Report, NeedsNothingFromElsewhere) {

@@ -1,5 +1,6 @@
 #include "quality/results.h"
 
+#include <cmath>
 #include <limits>
 
 #include <gmock/gmock.h>
@@ -88,6 +89,86 @@ TEST(ErrorText, IsAPercentageOrABound) {
   EXPECT_EQ(error_text(0.0, 0.001), "< 0.1");
   EXPECT_EQ(error_text(0.0, 0.0), "0");
   EXPECT_EQ(error_text(std::numeric_limits<double>::quiet_NaN(), 0.001), "dark");
+}
+
+/// A run along three frames, of which all moves before the second and nothing before the third, which is
+/// dark.
+Comparison along_a_path() {
+  constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
+  Comparison comparison = two_runs();
+  comparison.path = {.seconds = 3.0,
+                     .frames = {{.time = 0.0, .motion = scene::Motion::all, .truth = {.mean_airlight = 1.0}},
+                                {.time = 1.5, .motion = scene::Motion::all, .truth = {.mean_airlight = 1.0}},
+                                {.time = 3.0, .motion = scene::Motion::nothing, .truth = {}}}};
+  Run& run = comparison.runs[0];
+  run.path.resize(3);
+  run.path[0].cost = {.ms = 30.0, .stages_ms = {{"scan", 2.0}}, .redrawn = {"shadow_map", "volume"}};
+  run.path[1].cost = {.ms = 20.0, .stages_ms = {{"scan", 2.0}}, .redrawn = {"volume"}};
+  run.path[2].cost = {.ms = 10.0, .stages_ms = {}, .redrawn = {}};
+  run.path[0].errors.airlight.rrmse = 0.01;
+  run.path[1].errors.airlight.rrmse = 0.03;
+  run.path[2].errors.airlight.is_dark = true;
+  run.path[2].errors.airlight.rrmse = k_none;
+  for (Run::Frame& frame : run.path) frame.errors.same_surface.rrmse = k_none;
+  run.worst_frame = 1;
+  comparison.runs.resize(1);
+  return comparison;
+}
+
+TEST(Path, HasMeanAndWorstOfWhatIsNotDark) {
+  const PathSpreads spreads = path_spreads(along_a_path().runs[0]);
+  EXPECT_DOUBLE_EQ(spreads.ms.mean, 20.0);
+  EXPECT_DOUBLE_EQ(spreads.ms.worst, 30.0);
+  EXPECT_DOUBLE_EQ(spreads.rrmse.mean, 0.02);
+  EXPECT_DOUBLE_EQ(spreads.rrmse.worst, 0.03);
+  EXPECT_TRUE(std::isnan(spreads.same_surface_rrmse.mean));
+  EXPECT_TRUE(std::isnan(spreads.same_surface_rrmse.worst));
+}
+
+TEST(Path, TellsMotionsApart) {
+  const Comparison comparison = along_a_path();
+  const std::vector<MotionShare> shares = shares_of_motion(*comparison.path, comparison.runs[0]);
+  ASSERT_EQ(shares.size(), 2u);
+  EXPECT_EQ(shares[0].motion, scene::Motion::all);
+  EXPECT_EQ(shares[0].frames, 2);
+  EXPECT_EQ(shares[0].shadow_maps, 1);
+  EXPECT_EQ(shares[0].volumes, 2);
+  EXPECT_DOUBLE_EQ(shares[0].ms, 25.0);
+  EXPECT_EQ(shares[1].motion, scene::Motion::nothing);
+  EXPECT_EQ(shares[1].volumes, 0);
+  EXPECT_DOUBLE_EQ(shares[1].ms, 10.0);
+}
+
+TEST(Path, IsInResultsAndTable) {
+  const json results = json::parse(results_json(along_a_path()));
+  EXPECT_EQ(results["path"]["seconds"], 3.0);
+  EXPECT_EQ(results["path"]["frames"][2]["moves"], "nothing");
+  EXPECT_EQ(results["path"]["frames"][2]["dark"], true);
+  const json& path = results["runs"][0]["path"];
+  EXPECT_EQ(path["worst_frame"], 1);
+  EXPECT_EQ(path["frame_ms"], (json{{"mean", 20.0}, {"worst", 30.0}}));
+  EXPECT_TRUE(path["same_surface_rrmse"]["mean"].is_null());
+  EXPECT_EQ(path["frames"][0]["redrawn"], (json{"shadow_map", "volume"}));
+  EXPECT_EQ(path["frames"][2]["redrawn"], json::array());
+  EXPECT_TRUE(path["frames"][2]["rrmse"].is_null());
+  const std::string table = results_table(along_a_path());
+  EXPECT_THAT(table, HasSubstr("path: 3 frames in 3 s"));
+  EXPECT_THAT(table, testing::ContainsRegex("all +2 +1 +2 +25.00"));
+  EXPECT_THAT(table, testing::ContainsRegex("nothing +1 +0 +0 +10.00"));
+}
+
+TEST(IsWorse, PrefersWhatIsNotDark) {
+  AirlightError good{}, bad{}, dark{}, darker{};
+  good.rrmse = 0.01;
+  bad.rrmse = 0.02;
+  dark.is_dark = darker.is_dark = true;
+  dark.rmse = 5.0;
+  darker.rmse = 1.0;
+  EXPECT_TRUE(is_worse(bad, good));
+  EXPECT_FALSE(is_worse(good, bad));
+  EXPECT_TRUE(is_worse(good, dark));
+  EXPECT_FALSE(is_worse(dark, good));
+  EXPECT_TRUE(is_worse(dark, darker));
 }
 
 TEST(ViewOptions, ReadBackToTheSameNumbers) {

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace airlight::scene {
+
+/// Views at equal steps of time, in which camera and lights move.
+struct Path {
+  double seconds = 0.0;               ///< from the first view to the last
+  std::vector<View> views;            ///< at least one; each is one that `validate` lets pass
+  std::vector<std::string> warnings;  ///< one line each
+
+  /// Of a view, from the first on [s]: frame / (frames − 1) of all seconds; 0 of a single one.
+  double time(std::size_t frame) const;
+};
+
+/// What ends the names of files of a path's frame, before the format: "_0007".
+std::string frame_ending(std::size_t frame);
+
+inline constexpr std::size_t k_most_frames = 10000;
+
+/// Reads a path, a TOML file that says where camera and lights are when:
+///
+///     frames = 32                # how many images show it
+///     seconds = 8
+///     [[camera]]                 # a key: where the camera is at a time
+///     time = 0                   # [s], from 0 to `seconds`, later than the key before
+///     eye = [0, 1, 4]            # as in a shot, as are target, up and fov
+///     target = [0, 1, 0]
+///     [[light]]                  # a key of a lamp
+///     name = "lamp"              # or its number in the view, from 0; needless where there is one light
+///     time = 2.5
+///     position = [0, 1.85, 0]    # as in a shot, as is intensity
+///     [[sun]]                    # the same of a sun: towards or angles, irradiance
+///
+/// A key gives what it gives: each of these goes along a curve of its own (CatmullRom) through the keys that
+/// give it, rests before the first and after the last of them, and is the view's where none does. A sun's
+/// direction is brought back to unit length. Colours that a curve takes below 0 are 0 there; a warning counts
+/// the frames.
+/// @param view what the path starts from: all that it does not move is the view's
+/// @throws Error (bad_file) with file, line and key; with file and frame for a view that `validate` refuses
+Path load_path(const std::filesystem::path& file, const View& view);
+
+/// What has moved from one view to the next.
+enum class Motion { nothing, camera, lights, all };
+
+/// "nothing", "camera", "lights" or "all".
+std::string_view motion_name(Motion motion);
+
+/// A light that is brighter or darker has not moved. Both views have as many lights.
+Motion motion_between(const View& before, const View& after);
+
+}  // namespace airlight::scene
