@@ -78,6 +78,7 @@ TEST(WhyBlack, TellsOfASpotThatLooksAway) {
   EXPECT_EQ(why({0, 0, 6}, {0, 0, 1}, 90), k_out_of_reach) << "behind the eye";
   EXPECT_EQ(why({0, 0, 4}, {0, 0, -1}, 90), k_unknown) << "its back to the eye";
   EXPECT_EQ(why({0, 20, 0}, {0, 1, 0}, 60), k_out_of_reach) << "above the image, upwards";
+  EXPECT_EQ(why({0, 20, 0}, {0, 1, 0}, 75), k_unknown) << "wider, it meets what rises in the image";
   EXPECT_EQ(why({0, 20, 0}, {0, 1, -3}, 60), k_unknown) << "far off it lights what is seen";
   EXPECT_EQ(why({0, 20, 0}, {0, -1, 0}, 60), k_unknown);
 }

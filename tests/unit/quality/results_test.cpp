@@ -217,11 +217,15 @@ TEST(View, HasEveryFieldInMetadataAndResults) {
   scene::View& view = comparison.view;
   view.lights[0].texture =
       std::make_shared<const scene::LightTexture>("a.exr", glm::ivec2(1), std::vector<glm::vec3>(1));
+  view.lights[0].cone.emplace();
+  view.lights[0].range = 7.0;
   view.medium.phase = scene::PhaseFunction::hoffman_preetham;
   view.medium.top = 16.0;
   expect_every_field(comparison);
   const json results = json::parse(results_json(comparison))["view"];
   EXPECT_EQ(results["lights"][0]["texture"], "a.exr");
+  EXPECT_EQ(results["lights"][0]["angles"], (json{0.0, 45.0}));
+  EXPECT_EQ(results["lights"][0]["range"], 7.0);
   EXPECT_EQ(results["size"], (json{512, 512}));
   EXPECT_EQ(results["camera"]["target"], (json{0.0, 0.0, -1.0}));
 }
