@@ -1253,7 +1253,7 @@ TEST_F(Paths, FitWhatIsAutomaticToAllFrames) {
   std::ofstream(file("zoom.toml")) << "frames = 3\nseconds = 2\n[[camera]]\ntime = 0\nfov = 60\n[[camera]]\n"
                                       "time = 1\nfov = 20\n[[camera]]\ntime = 2\nfov = 60\n";
   const auto alpha = [&](const Words& words) {
-    Words all = {"--volume", "vsv", "--alpha", "auto", "--frames", "1"};
+    Words all = {"--volume", "vsv", "--alpha", "auto"};
     all.insert(all.end(), words.begin(), words.end());
     return compare(all)["runs"][0]["settings"]["alpha"].get<int>();
   };

@@ -78,12 +78,13 @@ TEST_F(Resting, FramesDrawWhatHasChanged) {
 }
 
 TEST_F(Resting, MissingFacesAloneAreDrawn) {
-  view_.camera.eye = {0.2, 1.7, 0.3};
-  view_.camera.target = {0.2, 1.7, -4.0};
+  view_.camera.eye = {0.9, 1.0, 0.9};
+  view_.camera.target = {0.9, 1.0, 4.0};
+  view_.camera.vertical_fov_degrees = 30.0;
   expect_redrawn(k_both, "the first frame");
-  view_.camera.target = {0.2, 1.7, 4.0};
+  view_.camera.target = {-4.0, 0.5, 0.9};
   expect_redrawn(k_both, "other faces are seen");
-  view_.camera.target = {0.2, 1.7, -4.0};
+  view_.camera.target = {0.9, 1.0, 4.0};
   expect_redrawn(k_volume, "all of them are there");
 }
 
