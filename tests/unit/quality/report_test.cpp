@@ -71,7 +71,7 @@ TEST(Report, DrawsTimeAndErrorAlongAPath) {
   Comparison comparison = one_run();
   comparison.path.emplace().seconds = 1.0;
   comparison.path->frames.resize(3);
-  Run& run = comparison.runs[0];
+  quality::Run& run = comparison.runs[0];
   run.debug_images = {};
   run.path.resize(3);
   run.path[0].cost.ms = 5.0;
