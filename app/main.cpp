@@ -88,7 +88,7 @@ int run(int argc, char** argv) {
   render_command.add_option("-o", options.output, "the image: OpenEXR; a PNG preview goes beside it")
       ->type_name("FILE.exr");
   add_option(render_command, options,
-             {"volume", "METHOD", "airlight (default: vsv; with a light texture vsv:integral=riemann)"});
+             {"volume", "METHOD", "airlight (default: vsv)"});
   add_option(render_command, options, {"surface", "METHOD", "surface shadow (default: shadow-map)"});
 
   CLI::App& compare_command = add_image_command(
@@ -100,8 +100,7 @@ int run(int argc, char** argv) {
   add_option(
       compare_command, options,
       {"volume", "LIST",
-       "methods of airlight, separated by commas (default: vsv,vsv:integral=riemann,reference-march; with a "
-       "light texture without the first)"});
+       "methods of airlight, separated by commas (default: vsv,vsv:integral=riemann,reference-march)"});
   add_option(compare_command, options,
              {"surface", "LIST", "methods of surface shadow, separated by commas (default: shadow-map)"});
   add_option(compare_command, options, {"frames", "N", "frames timed a run, after warm-up (default: 5)"});

@@ -11,6 +11,8 @@
 #include "media/medium.h"
 
 #include "spirv/media/phi_growth_comp.h"
+#include "spirv/media/vsv_colour_build_comp.h"
+#include "spirv/media/vsv_quadrature_frag.h"
 #include "spirv/media/vsv_riemann_frag.h"
 #include "spirv/media/vsv_sun_frag.h"
 #include "spirv/media/vsv_table_build_comp.h"
@@ -36,6 +38,21 @@ std::uint32_t layer_of(const scene::Medium& medium, const scene::Light& light, c
   const bool is_entered =
       !scene::is_sun(light) && (lies_above(medium, eye) || lies_above(medium, light.position));
   return is_entered ? shaders::k_layer_entered : shaders::k_layer_around;
+}
+
+/// Of shaders/media/reach.glsl.
+std::uint32_t reach_of(const scene::Light& light) {
+  return (light.cone ? shaders::k_reach_of_cone : 0) | (light.range ? shaders::k_reach_of_range : 0);
+}
+
+/// What of a light no table of α and φ alone holds; nullptr for nothing.
+const char* beyond_tables(const scene::View& view, const scene::Light& light) {
+  if (light.texture) return "a light texture";
+  if (light.cone) return "a spot";
+  if (light.range) return "a light's range";
+  if (layer_of(view.medium, light, view.camera.eye) == shaders::k_layer_entered)
+    return "a point light or an eye above a layer of fog";
+  return nullptr;
 }
 
 /// Whether the integrand changes much within a cell of φ: a lobe of the phase function is narrow, or light
@@ -73,38 +90,55 @@ void Vsv::load(const gpu::Context& context, const Variant& variant) {
   if (loaded_ == variant) return;
   const epipolar::Resolution& resolution = volume_.grid().resolution();
   const auto grid = epipolar::resolution_constants(resolution);
-  const std::array<gpu::Constant, 12> constants = {
-      grid[0],
-      grid[1],
-      grid[2],
-      gpu::Constant(3, variant.phase),
-      gpu::Constant(4, variant.channels),
-      gpu::Constant(5, table_rows(variant.rough)),
-      gpu::Constant(6, variant.direct),
-      gpu::Constant(7, options_.integral == VsvIntegral::factored),
-      gpu::Constant(8, options_.volume.populate == epipolar::Populate::conservative),
-      gpu::Constant(9, variant.rough),
-      gpu::Constant(10, variant.layer),
-      gpu::Constant(11, variant.looks_away)};
-  phi_growth_ = gpu::Pipeline::compute(k_phi_growth_comp, std::array{grid[0], constants[3]});
+  const gpu::Constant phase(3, variant.phase), channels(4, variant.channels);
+  const gpu::Constant whole_voxels(8, options_.volume.populate == epipolar::Populate::conservative);
+  const gpu::Constant rough(9, variant.rough), layer(10, variant.layer), looks_away(11, variant.looks_away);
+  const gpu::Constant reach(12, variant.reach), light_textured(13, variant.light_textured);
+  phi_growth_ = gpu::Pipeline::compute(k_phi_growth_comp, std::array{grid[0], phase});
+  table_ = {};
+  build_table_ = {};
   if (variant.sun) {
-    const auto sum = static_cast<std::uint32_t>(options_.integral);
+    // In the order of shaders/media/vsv_sun.frag.
+    const std::uint32_t sum = variant.integral == VsvIntegral::riemann    ? 1
+                              : variant.integral == VsvIntegral::factored ? 2
+                                                                          : 0;
     integrate_ = frame::ScreenPass(k_vsv_sun_frag,
-                                   std::array{grid[0], grid[1], grid[2], constants[3], gpu::Constant(6, sum),
-                                              constants[8], constants[10], constants[11]});
-  } else if (options_.integral != VsvIntegral::riemann) {
-    build_table_ = gpu::Pipeline::compute(k_vsv_table_build_comp, constants);
-    integrate_ = frame::ScreenPass(k_vsv_table_frag, constants);
+                                   std::array{grid[0], grid[1], grid[2], phase, gpu::Constant(6, sum),
+                                              whole_voxels, layer, looks_away});
+  } else if (variant.integral == VsvIntegral::riemann) {
+    integrate_ = frame::ScreenPass(k_vsv_riemann_frag,
+                                   std::array{grid[0], grid[1], grid[2], phase, whole_voxels, rough, layer,
+                                              looks_away, reach, light_textured});
+  } else if (variant.integral == VsvIntegral::quadrature) {
+    integrate_ = frame::ScreenPass(k_vsv_quadrature_frag,
+                                   std::array{grid[0], grid[1], grid[2], phase, channels, whole_voxels, layer,
+                                              looks_away, reach, light_textured});
+    if (variant.light_textured) {
+      build_table_ = gpu::Pipeline::compute(k_vsv_colour_build_comp, grid);
+      table_ = gpu::Buffer(std::int64_t{resolution.theta} * (resolution.phi + 1) * 16);
+      table_texels_ = {context.limits(), table_, gpu::Format::rgba32f, "the table of the light's colours"};
+    }
+  } else {
+    const gpu::Constant rows(5, table_rows(variant.rough)), direct(6, variant.direct);
+    const gpu::Constant factored(7, variant.integral == VsvIntegral::factored);
+    build_table_ = gpu::Pipeline::compute(
+        k_vsv_table_build_comp, std::array{grid[0], grid[1], grid[2], phase, channels, rows, rough});
+    integrate_ = frame::ScreenPass(k_vsv_table_frag,
+                                   std::array{grid[0], grid[1], grid[2], phase, channels, rows, direct,
+                                              factored, whole_voxels, rough, layer, looks_away});
     table_ =
         gpu::Buffer(std::int64_t{table_rows(variant.rough)} * (resolution.phi + 2) * variant.channels * 16);
     table_texels_ = {context.limits(), table_, gpu::Format::rgba32f, "the table integral"};
-  } else {
-    integrate_ = frame::ScreenPass(
-        k_vsv_riemann_frag,
-        std::array{grid[0], grid[1], grid[2], constants[3], gpu::Constant(4, variant.light_textured),
-                   constants[8], constants[9], constants[10], constants[11]});
   }
   loaded_ = variant;
+}
+
+VsvIntegral VsvOptions::used_integral(const scene::View& view) const {
+  if (integral != VsvIntegral::automatic) return integral;
+  const bool has_table =
+      std::none_of(view.lights.begin(), view.lights.end(),
+                   [&](const scene::Light& light) { return beyond_tables(view, light) != nullptr; });
+  return has_table ? VsvIntegral::table : VsvIntegral::quadrature;
 }
 
 std::optional<frame::Refusal> VsvOptions::refusal(const scene::View& view) const {
@@ -114,23 +148,21 @@ std::optional<frame::Refusal> VsvOptions::refusal(const scene::View& view) const
                                       view.medium.g, k_narrowest_lobe),
                           "use a g nearer to 0, or the method reference"};
   }
-  if (integral == VsvIntegral::riemann) return {};
-  const auto refuse = [&](std::string what) {
-    return frame::Refusal{integral == VsvIntegral::table ? "integral=table" : "integral=factored",
-                          std::move(what), "use vsv:integral=riemann"};
-  };
+  if (integral != VsvIntegral::table && integral != VsvIntegral::factored) return {};
   for (const scene::Light& light : view.lights) {
-    if (light.texture) return refuse("it cannot take a light texture");
-    if (layer_of(view.medium, light, view.camera.eye) == shaders::k_layer_entered)
-      return refuse("it cannot take a point light or an eye above a layer of fog");
+    if (const char* what = beyond_tables(view, light)) {
+      return frame::Refusal{integral == VsvIntegral::table ? "integral=table" : "integral=factored",
+                            fmt::format("it cannot take {}", what), "use vsv:integral=quadrature"};
+    }
   }
   return {};
 }
 
 void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) {
   assert(!options_.refusal(inputs.view));
+  const VsvIntegral integral = options_.used_integral(inputs.view);
   const bool is_sun = scene::is_sun(inputs.light());
-  const bool has_table = !is_sun && options_.integral != VsvIntegral::riemann;
+  const bool has_table = !is_sun && (integral == VsvIntegral::table || integral == VsvIntegral::factored);
   const gpu::Texture* light_texture = inputs.light_texture();
 
   // Where the grid's rows lie, and what the shaders are specialised for.
@@ -139,10 +171,17 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
   const shaders::EpipolarBlock space = volume_.find_ranges(inputs, !(rough && has_table));
   const glm::vec3 sigma_t = inputs.view.medium.sigma_s + inputs.view.medium.sigma_a;
   const bool is_grey = sigma_t.x == sigma_t.y && sigma_t.y == sigma_t.z;
-  load(inputs.context,
-       {static_cast<std::uint32_t>(inputs.view.medium.phase), is_grey ? 1u : 3u,
-        direct_cells(space, volume_.grid().resolution()), light_texture != nullptr, rough, is_sun, layer,
-        alpha_max(space, volume_.grid().resolution()) > 0.5f * shaders::k_half_turn});
+  load(inputs.context, {.integral = integral,
+                        .phase = static_cast<std::uint32_t>(inputs.view.medium.phase),
+                        .channels = is_grey ? 1u : 3u,
+                        .direct = direct_cells(space, volume_.grid().resolution()),
+                        .reach = reach_of(inputs.light()),
+                        .light_textured = light_texture != nullptr,
+                        .rough = rough,
+                        .sun = is_sun,
+                        .layer = layer,
+                        .looks_away = alpha_max(space, volume_.grid().resolution()) >
+                                      0.5f * shaders::k_half_turn});
   if (options_.phi_cells == PhiCells::growing)
     inputs.timer.time("ranges", [&] { phi_growth_.dispatch({1, 1, 1}); });
 
@@ -150,16 +189,17 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
   volume_.fill(inputs);
 
   // Radiance.
-  if (has_table) {
+  if (light_texture) light_texture->bind_sampler(shaders::k_light_texture_unit);
+  if (table_.bytes() > 0) {
     inputs.timer.time("table", [&] {
       table_.bind_storage(shaders::k_table_storage);
-      build_table_.dispatch({table_rows(loaded_->rough), 1, 1});
+      const std::uint32_t rows = has_table ? table_rows(loaded_->rough) : volume_.grid().resolution().theta;
+      build_table_.dispatch({rows, 1, 1});
     });
   }
   inputs.timer.time("integrate", [&] {
     inputs.surfaces.bind_sampler(shaders::k_surface_unit);
-    if (has_table) table_texels_.bind_sampler(shaders::k_table_unit);
-    if (light_texture) light_texture->bind_sampler(shaders::k_light_texture_unit);
+    if (table_.bytes() > 0) table_texels_.bind_sampler(shaders::k_table_unit);
     integrate_.run({radiance});
   });
 }
@@ -178,11 +218,15 @@ frame::AirlightMethod vsv_method() {
   std::vector<frame::Option> options = {frame::word_option(
       {.name = "integral",
        .meaning = "how visibility becomes radiance",
-       .quality = "table is exact up to the bits, riemann to a cell; factored does not ask where shadow lies",
-       .cost = "table grows with the changes of visibility a pixel, riemann with the lit samples",
-       .sweep = {"table", "riemann", "factored"},
+       .quality =
+           "table and quadrature are exact up to the bits, riemann to a cell; factored does not ask where "
+           "shadow lies",
+       .cost = "table and quadrature grow with the changes of visibility a pixel, riemann with the lit samples",
+       .sweep = {"table", "quadrature", "riemann", "factored"},
        .is_common = true},
-      {{"table", "between changes of visibility, from a table"},
+      {{"auto", "table for a view that it can serve, else quadrature"},
+       {"table", "between changes of visibility, from a table"},
+       {"quadrature", "between changes of visibility, by panels that follow the light"},
        {"riemann", "the paper's sum over lit samples"},
        {"factored", "the lit fraction of what would be without shadow"}},
       &VsvOptions::integral)};

@@ -1,0 +1,155 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "media/vsv_ray.glsl"
+#include "media/reach.glsl"
+#include "media/vsv_colour.glsl"
+
+// Airlight from the shadow volume for whatever light and medium: exact up to the visibility bits, as with a table (vsv_table.frag), but
+// each lit run between two changes of visibility is integrated as it is met, by Gauss–Legendre panels that are as long as the
+// integrand is smooth, and end where it has kinks: at the edges of a spot's cones, and where its light begins and ends. So nothing has to
+// depend on α and φ alone. (Suns have a closed form: vsv_sun.frag.)
+layout(constant_id = 4) const uint k_channels = 1;  // 1 where σ_t is grey, else 3
+layout(constant_id = 12) const uint k_reach = 0;    // reach.glsl
+layout(constant_id = 13) const uint k_light_textured = 0;
+
+// Nodes (to both sides of the middle of [−1, 1]) and weights. Abramowitz and Stegun, Handbook of Mathematical Functions (1964),
+// table 25.4.
+const vec2 k_of_two = vec2(0.5773502692, 1.0);
+const vec2 k_of_four_inner = vec2(0.3399810436, 0.6521451549);
+const vec2 k_of_four_outer = vec2(0.8611363116, 0.3478548451);
+
+// Of what panel_length allows: panels that two nodes serve as well as four do the whole.
+const float k_short = 0.25;
+// Between the ends of a panel a straight line stands for what a light's texture multiplies.
+const float k_straight = 0.35;
+// Of r⁴, which has a pole at the light, on the way away from it; and of optical depth at which what is left counts no more.
+const float k_from_pole = 1.5;
+const float k_faint = 20.0;
+
+// The lit runs of a ray, one after the other.
+struct Runs {
+  float lit_from;  // where the next one begins [rad of φ]
+  bool has_next;
+  uint word;       // the next to be read
+  uint changes;    // of visibility, those that are left of the word before
+  uint carry;      // whether its last cell is in shadow; what lies before the first word counts as lit
+  uint before;     // the same, in every place, as seen_bits asks for
+  uvec4 words;
+};
+
+// The cell before which visibility changes next, or k_phi_count.
+uint next_change(VsvRay ray, inout Runs runs) {
+  uint last_word = ray.last_cell >> 5;
+  while (runs.changes == 0u && runs.word <= last_word) {
+    if ((runs.word & 3u) == 0u) runs.words = texelFetch(grid_texels, ray.texel + int(runs.word >> 2));
+    uint shadow = seen_bits(ray, runs.words.x, runs.word, runs.before);
+    runs.words.xyz = runs.words.yzw;
+    runs.changes = (shadow ^ (shadow << 1 | runs.carry)) & before_end(ray, runs.word);
+    runs.carry = shadow >> 31;
+    ++runs.word;
+  }
+  if (runs.changes == 0u) return k_phi_count;
+  uint cell = 32u * (runs.word - 1u) + uint(findLSB(runs.changes));
+  runs.changes &= runs.changes - 1u;
+  return cell;
+}
+
+// The next lit run's φ. Beyond the half-plane's last cell all is lit.
+vec2 next_run(VsvRay ray, inout Runs runs) {
+  vec2 run = vec2(runs.lit_from, ray.phi_end);
+  uint dark_from = next_change(ray, runs);
+  if (dark_from < k_phi_count) run.y = phi_of_cell(ray.cells, float(dark_from));
+  uint lit_from = dark_from < k_phi_count ? next_change(ray, runs) : k_phi_count;
+  runs.has_next = lit_from < k_phi_count || (dark_from < k_phi_count && goes_beyond(ray));
+  runs.lit_from = phi_of_cell(ray.cells, float(lit_from));
+  return run;
+}
+
+// What a light without texture contributes at φ.
+vec3 value_at(LayerRay ray, MediumBlock fog, float phi) {
+  vec3 value = k_layer == k_layer_entered ? layer_integrand(space, light, fog, k_phase, ray, phi)
+                                          : airlight_integrand(space, fog, k_phase, ray.complement, phi);
+  return k_reach == 0u ? value : value * reach_share(space, light, k_reach, ray, phi);
+}
+
+// ∫ value_at dφ.
+vec3 integrate_panel(LayerRay ray, MediumBlock fog, float from, float to, bool is_short) {
+  float middle = 0.5 * (from + to);
+  float reach = 0.5 * (to - from);
+  vec3 sum = vec3(0.0);
+  uint pairs = is_short ? 1u : 2u;
+  for (uint i = 0u; i < pairs; ++i) {
+    vec2 node = is_short ? k_of_two : i == 0u ? k_of_four_inner : k_of_four_outer;
+    sum += node.y * (value_at(ray, fog, middle - reach * node.x) + value_at(ray, fog, middle + reach * node.x));
+  }
+  return reach * sum;
+}
+
+// ∫ value_at times the light's colour. `colours`: its integrals over the panel (vsv_colour.glsl).
+vec3 integrate_coloured_panel(LayerRay ray, MediumBlock fog, float from, float to, vec4 colours) {
+  float middle = 0.5 * (from + to);
+  float offset = 0.5 * k_of_two.x * (to - from);
+  vec3 first = value_at(ray, fog, middle - offset);
+  vec3 second = value_at(ray, fog, middle + offset);
+  // How far from the middle, on the average, light comes from, in units of the nodes' offset.
+  float mean = dot(colours.rgb, vec3(1.0 / 3.0));
+  float away = mean > 0.0 ? clamp(colours.w / mean - middle, from - middle, to - middle) / max(offset, 1e-30) : 0.0;
+  return colours.rgb * max(0.5 * ((first + second) + away * (second - first)), vec3(0.0));
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  VsvRay ray = vsv_ray(pixel);
+  vec3 outward = dot(ray.direction, space.u) * space.u + dot(ray.direction, space.f) * space.f;
+  LayerRay in_plane = LayerRay(ray.direction, unit_or(outward, space.u), ray.alpha, alpha_complement(ray.angle), ray.entry);
+  MediumBlock fog = medium;
+  if (k_channels == 1u) fog.sigma_t = fog.sigma_t.xxx;  // one exponential instead of three
+  float lightest = min(fog.sigma_t.x, min(fog.sigma_t.y, fog.sigma_t.z));
+  LitPart part = part_in_reach(space, light, k_reach, in_plane, ray.phi_start, ray.phi_end);
+  ColourRow row;
+  if (k_light_textured != 0u) row = colour_row(theta_of(space, ray.direction));
+
+  vec3 sum = vec3(0.0);
+  Runs runs = Runs(0.0, true, 0u, 0u, 0u, ray.unknown, uvec4(0u));
+  while (runs.has_next) {
+    vec2 run = next_run(ray, runs);
+    float from = max(run.x, part.from);
+    float to = min(run.y, part.to);
+    if (run.y >= part.to) runs.has_next = false;
+    vec4 colours_to_from;
+    if (k_light_textured != 0u) colours_to_from = colours_to(row, from);
+    for (int i = 0; i < k_most_layer_steps && from < to; ++i) {
+      float longest;
+      if (k_layer == k_layer_entered) {
+        longest = layer_panel_length(space, light, fog, k_phase, in_plane, from);
+      } else {
+        float depth = lightest * (path_length(space, in_plane.complement, from) - space.distance);
+        if (depth > k_faint) {
+          runs.has_next = false;
+          break;
+        }
+        longest = panel_length(space, fog, k_phase, in_plane.complement, from);
+      }
+      if ((k_reach & k_reach_of_range) != 0u) longest = min(longest, k_from_pole * (in_plane.alpha + from));
+      if (k_light_textured != 0u) longest *= k_straight;
+      float next = min(from + longest, to);
+      bool is_short = next - from < k_short * longest;
+      if ((k_reach & k_reach_of_cone) != 0u) {
+        bool is_on_edge = from < part.inner_from || from >= part.inner_to;
+        if (is_on_edge && k_light_textured != 0u) next = min(next, from + k_straight * (part.to - part.from));
+        is_short = is_short && !is_on_edge;
+        if (from < part.inner_from) next = min(next, max(part.inner_from, from));
+        else if (from < part.inner_to) next = min(next, part.inner_to);
+      }
+      if (k_light_textured != 0u) {
+        vec4 colours = colours_to(row, next);
+        sum += integrate_coloured_panel(in_plane, fog, from, next, colours - colours_to_from);
+        colours_to_from = colours;
+      } else {
+        sum += integrate_panel(in_plane, fog, from, next, is_short);
+      }
+      from = next;
+    }
+  }
+  airlight = vec4(airlight_scale(space, light, medium, ray.angle.sine) * sum, 1.0);
+}
