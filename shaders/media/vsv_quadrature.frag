@@ -14,12 +14,14 @@ layout(constant_id = 13) const uint k_light_textured = 0;
 
 // Nodes (to both sides of the middle of [−1, 1]) and weights. Abramowitz and Stegun, Handbook of Mathematical Functions (1964),
 // table 25.4.
+const vec2 k_of_one = vec2(0.0, 2.0);
 const vec2 k_of_two = vec2(0.5773502692, 1.0);
 const vec2 k_of_four_inner = vec2(0.3399810436, 0.6521451549);
 const vec2 k_of_four_outer = vec2(0.8611363116, 0.3478548451);
 
-// Of what panel_length allows: panels that two nodes serve as well as four do the whole.
+// Of what panel_length allows: panels that two nodes, or one, serve as well as four do the whole.
 const float k_short = 0.25;
+const float k_shortest = 0.02;
 // Between the ends of a panel a straight line stands for what a light's texture multiplies.
 const float k_straight = 0.35;
 // Of r⁴, which has a pole at the light, on the way away from it; and of optical depth at which what is left counts no more.
@@ -72,15 +74,14 @@ vec3 value_at(LayerRay ray, MediumBlock fog, float phi) {
   return k_reach == 0u ? value : value * reach_share(space, light, k_reach, ray, phi);
 }
 
-// ∫ value_at dφ.
-vec3 integrate_panel(LayerRay ray, MediumBlock fog, float from, float to, bool is_short) {
+// ∫ value_at dφ by one, two or four nodes.
+vec3 integrate_panel(LayerRay ray, MediumBlock fog, float from, float to, uint nodes) {
   float middle = 0.5 * (from + to);
   float reach = 0.5 * (to - from);
   vec3 sum = vec3(0.0);
-  uint pairs = is_short ? 1u : 2u;
-  for (uint i = 0u; i < pairs; ++i) {
-    vec2 node = is_short ? k_of_two : i == 0u ? k_of_four_inner : k_of_four_outer;
-    sum += node.y * (value_at(ray, fog, middle - reach * node.x) + value_at(ray, fog, middle + reach * node.x));
+  for (uint i = 0u; i < nodes; ++i) {
+    vec2 node = nodes == 1u ? k_of_one : nodes == 2u ? k_of_two : i < 2u ? k_of_four_inner : k_of_four_outer;
+    sum += node.y * value_at(ray, fog, middle + ((i & 1u) == 0u ? -reach : reach) * node.x);
   }
   return reach * sum;
 }
@@ -133,11 +134,11 @@ void main() {
       if ((k_reach & k_reach_of_range) != 0u) longest = min(longest, k_from_pole * (in_plane.alpha + from));
       if (k_light_textured != 0u) longest *= k_straight;
       float next = min(from + longest, to);
-      bool is_short = next - from < k_short * longest;
+      uint nodes = next - from > k_short * longest ? 4u : next - from > k_shortest * longest ? 2u : 1u;
       if ((k_reach & k_reach_of_cone) != 0u) {
         bool is_on_edge = from < part.inner_from || from >= part.inner_to;
         if (is_on_edge && k_light_textured != 0u) next = min(next, from + k_straight * (part.to - part.from));
-        is_short = is_short && !is_on_edge;
+        if (is_on_edge) nodes = 4u;
         if (from < part.inner_from) next = min(next, max(part.inner_from, from));
         else if (from < part.inner_to) next = min(next, part.inner_to);
       }
@@ -146,7 +147,7 @@ void main() {
         sum += integrate_coloured_panel(in_plane, fog, from, next, colours - colours_to_from);
         colours_to_from = colours;
       } else {
-        sum += integrate_panel(in_plane, fog, from, next, is_short);
+        sum += integrate_panel(in_plane, fog, from, next, nodes);
       }
       from = next;
     }
