@@ -11,8 +11,9 @@ namespace airlight::media {
 /// How the visibility bits become radiance.
 enum class VsvIntegral {
   automatic,  ///< table for a view that it can serve, else quadrature
-  table,      ///< between changes of visibility, from a table of the unshadowed integral: exact up to the bits
-  quadrature,  ///< between changes of visibility, by panels that follow the integrand: for every light and medium
+  table,  ///< between changes of visibility, from a table of the unshadowed integral: exact up to the bits
+  quadrature,  ///< between changes of visibility, by panels that follow the integrand: for every light and
+               ///< medium
   riemann,     ///< the paper's sum over all samples (Eq. 5)
   /// the unshadowed integral, from the table, times the lit fraction of the samples: the cheapest and the
   /// least exact, for it does not ask where along the ray the shadow lies
@@ -42,8 +43,8 @@ struct VsvOptions {
   VsvIntegral used_integral(const scene::View& view) const;
 
   /// A phase function whose lobe is too narrow. And by what looks up a table of α and φ, a light that depends
-  /// on θ too: one textured by direction, a spot, or a point light that shines into a layer of fog from above,
-  /// or is seen from there; and one with a range.
+  /// on θ too: one textured by direction, a spot, or a point light that shines into a layer of fog from
+  /// above, or is seen from there; and one with a range.
   std::optional<frame::Refusal> refusal(const scene::View& view) const;
 };
 
@@ -68,7 +69,8 @@ class Vsv : public frame::Airlight {
   struct Variant {
     VsvIntegral integral;
     std::uint32_t phase, channels, direct, reach;
-    bool light_textured, rough, sun;
+    glm::ivec2 colours;  ///< of a light texture's table: rows and columns; 0 without
+    bool rough, sun;
     std::uint32_t layer;
     bool looks_away;
     bool operator==(const Variant&) const = default;

@@ -93,11 +93,4 @@ FUNCTION Angle smooth_layer_length(IN(EpipolarBlock) space, IN(LightBlock) light
   return min(smooth_length_by_growth(medium, kind, ray.complement, phi, scales.growth), 0.25f * scales.to_level);
 }
 
-// panel_length for it.
-FUNCTION Angle layer_panel_length(IN(EpipolarBlock) space, IN(LightBlock) light, IN(MediumBlock) medium, uint kind,
-                                  IN(LayerRay) ray, Angle phi) {
-  LayerScales scales = layer_scales(space, light, medium, ray, phi);
-  return min(panel_length_by_growth(medium, kind, ray.complement, phi, scales.growth), k_panel_psi * scales.to_level);
-}
-
 #endif

@@ -22,10 +22,14 @@ const vec2 k_of_four_outer = vec2(0.8611363116, 0.3478548451);
 // Of what panel_length allows: panels that two nodes, or one, serve as well as four do the whole.
 const float k_short = 0.25;
 const float k_shortest = 0.02;
-// Between the ends of a panel a straight line stands for what a light's texture multiplies.
-const float k_straight = 0.35;
-// Of r⁴, which has a pole at the light, on the way away from it; and of optical depth at which what is left counts no more.
-const float k_from_pole = 1.5;
+// Of the distance to where r would be infinite, ahead and behind: of r⁴ these are steep poles.
+const float k_to_far_end = 0.4;
+const float k_from_far_end = 0.8;
+// Of φ, where the light falls from a spot's inner to its outer cone, on which four nodes are used whatever its width.
+const float k_longest_on_edge = 0.5;
+// Of all that lies in the outer cone; where the light is textured, a straight line has to follow its fall.
+const float k_on_textured_edge = 0.05;
+// Of optical depth; what is dimmed by that much more than at the eye counts no more.
 const float k_faint = 20.0;
 
 // The lit runs of a ray, one after the other.
@@ -107,8 +111,8 @@ void main() {
   if (k_channels == 1u) fog.sigma_t = fog.sigma_t.xxx;  // one exponential instead of three
   float lightest = min(fog.sigma_t.x, min(fog.sigma_t.y, fog.sigma_t.z));
   LitPart part = part_in_reach(space, light, k_reach, in_plane, ray.phi_start, ray.phi_end);
-  ColourRow row;
-  if (k_light_textured != 0u) row = colour_row(theta_of(space, ray.direction));
+  ColourRows rows;
+  if (k_light_textured != 0u) rows = colour_rows(theta_of(space, ray.direction));
 
   vec3 sum = vec3(0.0);
   Runs runs = Runs(0.0, true, 0u, 0u, 0u, ray.unknown, uvec4(0u));
@@ -118,32 +122,40 @@ void main() {
     float to = min(run.y, part.to);
     if (run.y >= part.to) runs.has_next = false;
     vec4 colours_to_from;
-    if (k_light_textured != 0u) colours_to_from = colours_to(row, from);
+    if (k_light_textured != 0u) colours_to_from = colours_to(rows, from);
     for (int i = 0; i < k_most_layer_steps && from < to; ++i) {
-      float longest;
+      float growth;
+      float longest = k_pi;
       if (k_layer == k_layer_entered) {
-        longest = layer_panel_length(space, light, fog, k_phase, in_plane, from);
+        LayerScales scales = layer_scales(space, light, fog, in_plane, from);
+        growth = scales.growth;
+        longest = k_panel_psi * scales.to_level;
       } else {
-        float depth = lightest * (path_length(space, in_plane.complement, from) - space.distance);
-        if (depth > k_faint) {
+        if (lightest * (path_length(space, in_plane.complement, from) - space.distance) > k_faint) {
           runs.has_next = false;
           break;
         }
-        longest = panel_length(space, fog, k_phase, in_plane.complement, from);
+        growth = depth_growth(space, fog, in_plane.complement, from);
       }
-      if ((k_reach & k_reach_of_range) != 0u) longest = min(longest, k_from_pole * (in_plane.alpha + from));
-      if (k_light_textured != 0u) longest *= k_straight;
+      longest = min(longest, panel_length_by_growth(fog, k_phase, in_plane.complement, from, growth));
+      if ((k_reach & k_reach_of_range) != 0u)
+        longest = min(longest, min(k_from_far_end * (in_plane.alpha + from), k_to_far_end * (in_plane.complement - from)));
+      bool is_on_edge = (k_reach & k_reach_of_cone) != 0u && (from < part.inner_from || from >= part.inner_to);
+      if (is_on_edge) longest = min(longest, k_longest_on_edge);
+      if (k_light_textured != 0u) {
+        longest *= k_straight;
+        if (is_on_edge) longest = min(longest, k_on_textured_edge * (part.to - part.from));
+        longest = min(longest, straight_length_by_growth(fog, k_phase, in_plane.complement, from, growth));
+      }
       float next = min(from + longest, to);
-      uint nodes = next - from > k_short * longest ? 4u : next - from > k_shortest * longest ? 2u : 1u;
       if ((k_reach & k_reach_of_cone) != 0u) {
-        bool is_on_edge = from < part.inner_from || from >= part.inner_to;
-        if (is_on_edge && k_light_textured != 0u) next = min(next, from + k_straight * (part.to - part.from));
-        if (is_on_edge) nodes = 4u;
-        if (from < part.inner_from) next = min(next, max(part.inner_from, from));
+        if (from < part.inner_from) next = min(next, part.inner_from);
         else if (from < part.inner_to) next = min(next, part.inner_to);
       }
+      float length = next - from;
+      uint nodes = is_on_edge || length > k_short * longest ? 4u : length > k_shortest * longest ? 2u : 1u;
       if (k_light_textured != 0u) {
-        vec4 colours = colours_to(row, next);
+        vec4 colours = colours_to(rows, next);
         sum += integrate_coloured_panel(in_plane, fog, from, next, colours - colours_to_from);
         colours_to_from = colours;
       } else {
