@@ -101,8 +101,7 @@ int run(int argc, char** argv) {
   CLI::App& render_command = add_image_command(app, options, "render", "renders one image");
   render_command.add_option("-o", options.output, "the image: OpenEXR; a PNG preview goes beside it")
       ->type_name("FILE.exr");
-  add_option(render_command,
-             {"volume", "METHOD", "airlight (default: vsv; with a light texture vsv:integral=riemann)"});
+  add_option(render_command, {"volume", "METHOD", "airlight (default: vsv)"});
   add_option(render_command, {"surface", "METHOD", "surface shadow (default: shadow-map)"});
 
   CLI::App& compare_command = add_image_command(
@@ -114,8 +113,7 @@ int run(int argc, char** argv) {
   add_option(
       compare_command,
       {"volume", "LIST",
-       "methods of airlight, separated by commas (default: vsv,vsv:integral=riemann,reference-march; with a "
-       "light texture without the first)"});
+       "methods of airlight, separated by commas (default: vsv,vsv:integral=riemann,reference-march)"});
   add_option(compare_command,
              {"surface", "LIST", "methods of surface shadow, separated by commas (default: shadow-map)"});
   add_option(

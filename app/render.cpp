@@ -92,7 +92,7 @@ void render(const Options& options) {
   if (output.extension() != ".exr")
     throw Error(ExitCode::usage, "-o", fmt::format("'{}' does not end in .exr", options.output),
                 "images are OpenEXR, with a PNG preview beside");
-  auto volumes = parse_volumes(options, "vsv,vsv:integral=riemann");
+  auto volumes = parse_volumes(options, "vsv");
   auto surfaces = parse_surfaces(options);
   require_read(options, volumes, surfaces);
   const int shadow_map = shadow_map_size(options);

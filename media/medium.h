@@ -6,6 +6,7 @@
 namespace airlight::shaders {
 #include "media/layer.glsl"
 #include "media/medium.glsl"
+#include "media/reach.glsl"
 #include "media/row_end.glsl"
 #include "media/table_place.glsl"
 }  // namespace airlight::shaders

@@ -9,8 +9,11 @@
 
 #include "epipolar/debug_images.h"
 #include "media/medium.h"
+#include "scene/light_texture.h"
 
 #include "spirv/media/phi_growth_comp.h"
+#include "spirv/media/vsv_colour_build_comp.h"
+#include "spirv/media/vsv_quadrature_frag.h"
 #include "spirv/media/vsv_riemann_frag.h"
 #include "spirv/media/vsv_sun_frag.h"
 #include "spirv/media/vsv_table_build_comp.h"
@@ -36,6 +39,30 @@ std::uint32_t layer_of(const scene::Medium& medium, const scene::Light& light, c
   const bool is_entered =
       !scene::is_sun(light) && (lies_above(medium, eye) || lies_above(medium, light.position));
   return is_entered ? shaders::k_layer_entered : shaders::k_layer_around;
+}
+
+/// Of shaders/media/reach.glsl.
+std::uint32_t reach_of(const scene::Light& light) {
+  return (light.cone ? shaders::k_reach_of_cone : 0) | (light.range ? shaders::k_reach_of_range : 0);
+}
+
+/// Rows and columns of the table of a light texture's colours (shaders/media/vsv_colour.glsl): 16 rows and a
+/// column for each of the texture's. Half the rows err by 0.6 % of what a lamp a few texels wide sends past
+/// the fence of docs/figures.md, these by 0.07 %; the columns matter less. 64 MiB at most.
+std::array<std::uint32_t, 2> colours_of(const scene::Light& light) {
+  if (!light.texture) return {0, 0};
+  const auto height = static_cast<std::uint32_t>(light.texture->size().y);
+  return {std::clamp(16 * height, 1024u, 4096u), std::clamp(height, 256u, 1024u)};
+}
+
+/// What of a light no table of α and φ alone holds; nullptr for nothing.
+const char* beyond_tables(const scene::View& view, const scene::Light& light) {
+  if (light.texture) return "a light texture";
+  if (light.cone) return "a spot";
+  if (light.range) return "a light's range";
+  if (layer_of(view.medium, light, view.camera.eye) == shaders::k_layer_entered)
+    return "a point light or an eye above a layer of fog";
+  return nullptr;
 }
 
 /// Whether the integrand changes much within a cell of φ: a lobe of the phase function is narrow, or light
@@ -74,41 +101,61 @@ const Vsv::Programs& Vsv::load(const gpu::Context& context, const Variant& varia
   Programs programs;
   const epipolar::Resolution& resolution = volume_.grid().resolution();
   const auto grid = epipolar::resolution_constants(resolution);
-  const std::array<gpu::Constant, 12> constants = {
-      grid[0],
-      grid[1],
-      grid[2],
-      gpu::Constant(3, variant.phase),
-      gpu::Constant(4, variant.channels),
-      gpu::Constant(5, table_rows(variant.rough)),
-      gpu::Constant(6, variant.direct),
-      gpu::Constant(7, options_.integral == VsvIntegral::factored),
-      gpu::Constant(8, options_.volume.populate == epipolar::Populate::conservative),
-      gpu::Constant(9, variant.rough),
-      gpu::Constant(10, variant.layer),
-      gpu::Constant(11, variant.looks_away)};
-  programs.phi_growth = gpu::Pipeline::compute(k_phi_growth_comp, std::array{grid[0], constants[3]});
+  const gpu::Constant phase(3, variant.phase), channels(4, variant.channels);
+  const gpu::Constant whole_voxels(8, options_.volume.populate == epipolar::Populate::conservative);
+  const gpu::Constant rough(9, variant.rough), layer(10, variant.layer), looks_away(11, variant.looks_away);
+  const gpu::Constant reach(12, variant.reach), light_textured(13, variant.colour_rows > 0);
+  const gpu::Constant colour_rows(14, variant.colour_rows), colour_columns(15, variant.colour_columns);
+  const auto require_table = [&](std::int64_t bytes, const char* what) {
+    if (table_.bytes() >= bytes) return;
+    table_ = gpu::Buffer(bytes);
+    table_texels_ = {context.limits(), table_, gpu::Format::rgba32f, what};
+  };
+  programs.phi_growth = gpu::Pipeline::compute(k_phi_growth_comp, std::array{grid[0], phase});
   if (variant.sun) {
-    const auto sum = static_cast<std::uint32_t>(options_.integral);
+    // In the order of shaders/media/vsv_sun.frag.
+    const std::uint32_t sum = variant.integral == VsvIntegral::riemann    ? 1
+                              : variant.integral == VsvIntegral::factored ? 2
+                                                                          : 0;
     programs.integrate = frame::ScreenPass(
-        k_vsv_sun_frag, std::array{grid[0], grid[1], grid[2], constants[3], gpu::Constant(6, sum),
-                                   constants[8], constants[10], constants[11]});
-  } else if (options_.integral != VsvIntegral::riemann) {
-    programs.build_table = gpu::Pipeline::compute(k_vsv_table_build_comp, constants);
-    programs.integrate = frame::ScreenPass(k_vsv_table_frag, constants);
-    const std::int64_t bytes =
-        std::int64_t{table_rows(variant.rough)} * (resolution.phi + 2) * variant.channels * 16;
-    if (table_.bytes() < bytes) {
-      table_ = gpu::Buffer(bytes);
-      table_texels_ = {context.limits(), table_, gpu::Format::rgba32f, "the table integral"};
+        k_vsv_sun_frag,
+        std::array{grid[0], grid[1], grid[2], phase, gpu::Constant(6, sum), whole_voxels, layer, looks_away});
+  } else if (variant.integral == VsvIntegral::riemann) {
+    programs.integrate =
+        frame::ScreenPass(k_vsv_riemann_frag, std::array{grid[0], grid[1], grid[2], phase, whole_voxels,
+                                                         rough, layer, looks_away, reach, light_textured});
+  } else if (variant.integral == VsvIntegral::quadrature) {
+    programs.integrate = frame::ScreenPass(
+        k_vsv_quadrature_frag, std::array{grid[0], grid[1], grid[2], phase, channels, whole_voxels, layer,
+                                          looks_away, reach, light_textured, colour_rows, colour_columns});
+    if (variant.colour_rows > 0) {
+      programs.build_table =
+          gpu::Pipeline::compute(k_vsv_colour_build_comp, std::array{colour_rows, colour_columns});
+      programs.table_rows = variant.colour_rows;
+      require_table(std::int64_t{variant.colour_rows} * (variant.colour_columns + 1) * 16,
+                    "the table of the light's colours");
     }
   } else {
+    programs.table_rows = table_rows(variant.rough);
+    const gpu::Constant rows(5, programs.table_rows), direct(6, variant.direct);
+    const gpu::Constant factored(7, variant.integral == VsvIntegral::factored);
+    programs.build_table = gpu::Pipeline::compute(
+        k_vsv_table_build_comp, std::array{grid[0], grid[1], grid[2], phase, channels, rows, rough});
     programs.integrate = frame::ScreenPass(
-        k_vsv_riemann_frag,
-        std::array{grid[0], grid[1], grid[2], constants[3], gpu::Constant(4, variant.light_textured),
-                   constants[8], constants[9], constants[10], constants[11]});
+        k_vsv_table_frag, std::array{grid[0], grid[1], grid[2], phase, channels, rows, direct, factored,
+                                     whole_voxels, rough, layer, looks_away});
+    require_table(std::int64_t{programs.table_rows} * (resolution.phi + 2) * variant.channels * 16,
+                  "the table integral");
   }
   return programs_.emplace(variant, std::move(programs)).first->second;
+}
+
+VsvIntegral VsvOptions::used_integral(const scene::View& view) const {
+  if (integral != VsvIntegral::automatic) return integral;
+  const bool has_table = std::none_of(view.lights.begin(), view.lights.end(), [&](const scene::Light& light) {
+    return beyond_tables(view, light) != nullptr;
+  });
+  return has_table ? VsvIntegral::table : VsvIntegral::quadrature;
 }
 
 std::optional<frame::Refusal> VsvOptions::refusal(const scene::View& view) const {
@@ -118,27 +165,21 @@ std::optional<frame::Refusal> VsvOptions::refusal(const scene::View& view) const
                                       view.medium.g, k_narrowest_lobe),
                           "use a g nearer to 0, or the method reference"};
   }
+  if (integral != VsvIntegral::table && integral != VsvIntegral::factored) return {};
   for (const scene::Light& light : view.lights) {
-    if (light.cone) return frame::Refusal{{}, "it cannot take a spot", "use the method reference"};
-    if (light.range) return frame::Refusal{{}, "it cannot take a light's range", "use the method reference"};
-  }
-  if (integral == VsvIntegral::riemann) return {};
-  const auto refuse = [&](std::string what) {
-    return frame::Refusal{integral == VsvIntegral::table ? "integral=table" : "integral=factored",
-                          std::move(what), "use vsv:integral=riemann"};
-  };
-  for (const scene::Light& light : view.lights) {
-    if (light.texture) return refuse("it cannot take a light texture");
-    if (layer_of(view.medium, light, view.camera.eye) == shaders::k_layer_entered)
-      return refuse("it cannot take a point light or an eye above a layer of fog");
+    if (const char* what = beyond_tables(view, light)) {
+      return frame::Refusal{integral == VsvIntegral::table ? "integral=table" : "integral=factored",
+                            fmt::format("it cannot take {}", what), "use vsv:integral=quadrature"};
+    }
   }
   return {};
 }
 
 void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) {
   assert(!options_.refusal(inputs.view));
+  const VsvIntegral integral = options_.used_integral(inputs.view);
   const bool is_sun = scene::is_sun(inputs.light());
-  const bool has_table = !is_sun && options_.integral != VsvIntegral::riemann;
+  const bool has_table = !is_sun && (integral == VsvIntegral::table || integral == VsvIntegral::factored);
   const gpu::Texture* light_texture = inputs.light_texture();
 
   // Where the grid's rows lie, and what the shaders are specialised for.
@@ -147,11 +188,20 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
   const shaders::EpipolarBlock space = volume_.find_ranges(inputs, !(rough && has_table));
   const glm::vec3 sigma_t = inputs.view.medium.sigma_s + inputs.view.medium.sigma_a;
   const bool is_grey = sigma_t.x == sigma_t.y && sigma_t.y == sigma_t.z;
+  const auto [colour_rows, colour_columns] = colours_of(inputs.light());
   const Programs& programs =
       load(inputs.context,
-           {static_cast<std::uint32_t>(inputs.view.medium.phase), is_grey ? 1u : 3u,
-            direct_cells(space, volume_.grid().resolution()), light_texture != nullptr, rough, is_sun, layer,
-            alpha_max(space, volume_.grid().resolution()) > 0.5f * shaders::k_half_turn});
+           {.integral = integral,
+            .phase = static_cast<std::uint32_t>(inputs.view.medium.phase),
+            .channels = is_grey ? 1u : 3u,
+            .direct = direct_cells(space, volume_.grid().resolution()),
+            .reach = reach_of(inputs.light()),
+            .colour_rows = colour_rows,
+            .colour_columns = colour_columns,
+            .rough = rough,
+            .sun = is_sun,
+            .layer = layer,
+            .looks_away = alpha_max(space, volume_.grid().resolution()) > 0.5f * shaders::k_half_turn});
   if (options_.phi_cells == PhiCells::growing && !volume_.rests())
     inputs.timer.time("ranges", [&] { programs.phi_growth.dispatch({1, 1, 1}); });
 
@@ -159,16 +209,16 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
   volume_.fill(inputs);
 
   // Radiance.
-  if (has_table && !volume_.rests()) {
+  if (light_texture) light_texture->bind_sampler(shaders::k_light_texture_unit);
+  if (programs.table_rows > 0 && !volume_.rests()) {
     inputs.timer.time("table", [&] {
       table_.bind_storage(shaders::k_table_storage);
-      programs.build_table.dispatch({table_rows(rough), 1, 1});
+      programs.build_table.dispatch({programs.table_rows, 1, 1});
     });
   }
   inputs.timer.time("integrate", [&] {
     inputs.surfaces.bind_sampler(shaders::k_surface_unit);
-    if (has_table) table_texels_.bind_sampler(shaders::k_table_unit);
-    if (light_texture) light_texture->bind_sampler(shaders::k_light_texture_unit);
+    if (programs.table_rows > 0) table_texels_.bind_sampler(shaders::k_table_unit);
     programs.integrate.run({radiance});
   });
 }
@@ -187,11 +237,16 @@ frame::AirlightMethod vsv_method() {
   std::vector<frame::Option> options = {frame::word_option(
       {.name = "integral",
        .meaning = "how visibility becomes radiance",
-       .quality = "table is exact up to the bits, riemann to a cell; factored does not ask where shadow lies",
-       .cost = "table grows with the changes of visibility a pixel, riemann with the lit samples",
-       .sweep = {"table", "riemann", "factored"},
+       .quality =
+           "table and quadrature are exact up to the bits, riemann to a cell; factored does not ask where "
+           "shadow lies",
+       .cost =
+           "table and quadrature grow with the changes of visibility a pixel, riemann with the lit samples",
+       .sweep = {"table", "quadrature", "riemann", "factored"},
        .is_common = true},
-      {{"table", "between changes of visibility, from a table"},
+      {{"auto", "table for a view that it can serve, else quadrature"},
+       {"table", "between changes of visibility, from a table"},
+       {"quadrature", "between changes of visibility, by panels that follow the light"},
        {"riemann", "the paper's sum over lit samples"},
        {"factored", "the lit fraction of what would be without shadow"}},
       &VsvOptions::integral)};

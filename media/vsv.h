@@ -12,8 +12,11 @@ namespace airlight::media {
 
 /// How the visibility bits become radiance.
 enum class VsvIntegral {
-  table,    ///< between changes of visibility, from a table of the unshadowed integral: exact up to the bits
-  riemann,  ///< the paper's sum over all samples (Eq. 5)
+  automatic,  ///< table for a view that it can serve, else quadrature
+  table,  ///< between changes of visibility, from a table of the unshadowed integral: exact up to the bits
+  quadrature,  ///< between changes of visibility, by panels that follow the integrand: for every light and
+               ///< medium
+  riemann,     ///< the paper's sum over all samples (Eq. 5)
   /// the unshadowed integral, from the table, times the lit fraction of the samples: the cheapest and the
   /// least exact, for it does not ask where along the ray the shadow lies
   factored,
@@ -26,18 +29,24 @@ enum class PhiCells {
 };
 
 struct VsvOptions {
-  VsvIntegral integral = VsvIntegral::table;
+  VsvIntegral integral = VsvIntegral::automatic;
   PhiCells phi_cells = PhiCells::growing;
   epipolar::VolumeOptions volume = {};
 
   void validate() const { volume.validate(); }
-  void fit(const scene::View& view) { volume.fit(view); }
+  void fit(const scene::View& view) {
+    integral = used_integral(view);
+    volume.fit(view);
+  }
   bool needs_closed_parts() const { return volume.needs_closed_parts(); }
   bool needs_shadow_map() const { return volume.needs_shadow_map(); }
 
-  /// A phase function whose lobe is too narrow. And, unless every sample is looked at, a light that depends
-  /// on θ too, where the table depends on α and φ alone: one textured by direction, or a point light that
-  /// shines into a layer of fog from above, or is seen from there.
+  /// The integral that the options stand for.
+  VsvIntegral used_integral(const scene::View& view) const;
+
+  /// A phase function whose lobe is too narrow. And by what looks up a table of α and φ, a light that depends
+  /// on θ too: one textured by direction, a spot, or a point light that shines into a layer of fog from
+  /// above, or is seen from there; and one with a range.
   std::optional<frame::Refusal> refusal(const scene::View& view) const;
 };
 
@@ -60,7 +69,9 @@ class Vsv : public frame::Airlight {
  private:
   /// What the shaders are specialised for.
   struct Variant {
-    std::uint32_t phase, channels, direct, light_textured;
+    VsvIntegral integral;
+    std::uint32_t phase, channels, direct, reach;
+    std::uint32_t colour_rows, colour_columns;  ///< of a light texture's table; 0 without
     bool rough, sun;
     std::uint32_t layer;
     bool looks_away;
@@ -68,6 +79,7 @@ class Vsv : public frame::Airlight {
   };
   struct Programs {
     gpu::Pipeline phi_growth, build_table;
+    std::uint32_t table_rows = 0;  ///< 0 where there is no table
     frame::ScreenPass integrate;
   };
   /// Those of a variant, and a table with room for it. Lights of a frame may be of different ones, in turns.
@@ -76,7 +88,7 @@ class Vsv : public frame::Airlight {
   VsvOptions options_;
   epipolar::ShadowVolume volume_;
   std::map<Variant, Programs> programs_;
-  gpu::Buffer table_;
+  gpu::Buffer table_;  ///< of the integral, or of a textured light's colours
   gpu::TexelView table_texels_;
 };
 

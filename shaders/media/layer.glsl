@@ -50,13 +50,18 @@ FUNCTION vec3 integrate_layer_cell(IN(EpipolarBlock) space, IN(LightBlock) light
           layer_integrand(space, light, medium, kind, ray, middle + offset));
 }
 
-// smooth_length for that integrand. Along the ray the light's path b grows by
+// What the integrand's scale is, besides those of a lobe and of ψ: by how much the optical depth grows along φ, and how far in φ
+// the light ray is from level. Along the ray the light's path b grows by
 //   db/dt = (b/r) dr/dt − w_y r h / (depth + h)²
 // with h the lamp's height above the layer, or 0, and depth the point's below it. Where that cancels the growth of the eye's path,
 // as in the direction of a far lamp, what is left of the slope grows with φ. And under a lamp above the layer, a light ray that
 // comes to be level goes through all of it.
-FUNCTION Angle smooth_layer_length(IN(EpipolarBlock) space, IN(LightBlock) light, IN(MediumBlock) medium, uint kind,
-                                   IN(LayerRay) ray, Angle phi) {
+struct LayerScales {
+  float growth;
+  Angle to_level;
+};
+
+FUNCTION LayerScales layer_scales(IN(EpipolarBlock) space, IN(LightBlock) light, IN(MediumBlock) medium, IN(LayerRay) ray, Angle phi) {
   float t = layer_distance(space, ray, phi);
   vec3 point = t * ray.direction;
   vec3 way = to_light(light, point);
@@ -65,19 +70,27 @@ FUNCTION Angle smooth_layer_length(IN(EpipolarBlock) space, IN(LightBlock) light
   float descent = 1.0f;  // of the light ray, by its length
   float b = light_path(medium, light, point);
   float slope = 1.0f - b / r * (dot(ray.direction, way) / r);
-  float longest = k_pi;
+  LayerScales scales;
+  scales.to_level = Angle(4.0f * k_pi);
   if (height > 0.0f) {
     float above = max(way.y, height);
     descent = above / r;
     slope -= ray.direction.y / descent * (height / above);
     float change = cosine(phi) * ray.outward.y + sine(phi) * space.axis.y;  // of it, along φ
-    longest = 0.25f * float(angle_of(descent, abs(change)));
+    scales.to_level = angle_of(descent, abs(change));
   }
   float opening = max(sine_of_scattering(ray, phi), 1e-8f);
   float sigma = steepest_channel(medium, max(t - ray.entry, 0.0f) + b);
   float stretch = sigma * space.distance * sine(ray.complement) / (opening * opening);  // σ dt/dφ
-  float growth = stretch * abs(slope) + sqrt(stretch) / descent;
-  return min(smooth_length_by_growth(medium, kind, ray.complement, phi, growth), Angle(longest));
+  scales.growth = stretch * abs(slope) + sqrt(stretch) / descent;
+  return scales;
+}
+
+// smooth_length for that integrand.
+FUNCTION Angle smooth_layer_length(IN(EpipolarBlock) space, IN(LightBlock) light, IN(MediumBlock) medium, uint kind,
+                                   IN(LayerRay) ray, Angle phi) {
+  LayerScales scales = layer_scales(space, light, medium, ray, phi);
+  return min(smooth_length_by_growth(medium, kind, ray.complement, phi, scales.growth), 0.25f * scales.to_level);
 }
 
 #endif

@@ -98,13 +98,51 @@ FUNCTION Angle smooth_length_by_growth(IN(MediumBlock) medium, uint kind, Angle 
   return Angle(psi < min(k_least_psi, 0.01f * float(complement)) ? psi : size);
 }
 
-// The same where the depth is that of t + r, which grows as cot(ψ/2).
-FUNCTION Angle smooth_length(IN(EpipolarBlock) space, IN(MediumBlock) medium, uint kind, Angle complement, Angle phi) {
-  Angle half_psi = Angle(0.5f * max(float(complement - phi), 1e-8f));
-  float half_sine = sine_of_quarter(half_psi);
+// How far outwards from φ four nodes of Gauss and Legendre follow the integrand to about 1e-5 of it. By the same scales: a panel
+// spans an optical depth of at most 3, ψ growing as its inverse falls; ends where ψ is still so large that the pole at ψ = 0 lies
+// outside an ellipse about the panel that takes the rule's error to that, and so do a lobe's poles at cos(α + φ) = (1 + g²) / 2g,
+// −ln|g| beside its tip (docs/method.md).
+CONST float k_panel_depth = 3.0f;
+CONST float k_panel_psi = 0.6f;
+CONST float k_panel_lobe = 0.75f;
+CONST float k_longest_panel = 1.2f;  // of Rayleigh's function, which turns with 2φ
+
+FUNCTION Angle panel_length_by_growth(IN(MediumBlock) medium, uint kind, Angle complement, Angle phi, float growth) {
+  float psi = max(float(complement - phi), 1e-8f);
+  float size = min(min(k_panel_psi * psi, psi / (1.0f + psi * growth / k_panel_depth)), k_longest_panel);
+  if (has_lobe(kind)) {
+    float from_tip = medium.g > 0.0f ? k_pi - psi : psi;
+    float width = 1.0f - abs(medium.g);
+    size = min(size, k_panel_lobe * sqrt(from_tip * from_tip + width * width));
+  }
+  return Angle(psi < min(k_least_psi, 0.01f * float(complement)) ? psi : size);
+}
+
+// How far outwards from φ a straight line follows the integrand, to 3e-3 in the mean: its second derivative, which for the depth is
+// g² + dg/dφ with g = growth, is small against the inverse square of that length.
+CONST float k_straight = 0.25f;
+
+FUNCTION Angle straight_length_by_growth(IN(MediumBlock) medium, uint kind, Angle complement, Angle phi, float growth) {
+  float psi = max(float(complement - phi), 1e-8f);
+  float size = k_straight / sqrt(growth * growth + 2.0f * growth / psi + 1e-12f);
+  if (kind == k_rayleigh || kind == k_hoffman_preetham) size = min(size, k_straight);
+  if (has_lobe(kind)) {
+    float from_tip = medium.g > 0.0f ? k_pi - psi : psi;
+    float width = 1.0f - abs(medium.g);
+    size = min(size, 0.5f * k_straight * sqrt(from_tip * from_tip + width * width));
+  }
+  return Angle(size);
+}
+
+// By how much the depth grows along φ where it is that of t + r, which grows as cot(ψ/2).
+FUNCTION float depth_growth(IN(EpipolarBlock) space, IN(MediumBlock) medium, Angle complement, Angle phi) {
+  float half_sine = sine_of_quarter(Angle(0.5f * max(float(complement - phi), 1e-8f)));
   float sigma = steepest_channel(medium, path_length(space, complement, phi));
-  float growth = 0.5f * sigma * space.distance * sine(complement) / (half_sine * half_sine);
-  return smooth_length_by_growth(medium, kind, complement, phi, growth);
+  return 0.5f * sigma * space.distance * sine(complement) / (half_sine * half_sine);
+}
+
+FUNCTION Angle smooth_length(IN(EpipolarBlock) space, IN(MediumBlock) medium, uint kind, Angle complement, Angle phi) {
+  return smooth_length_by_growth(medium, kind, complement, phi, depth_growth(space, medium, complement, phi));
 }
 
 // ∫ airlight_integrand dφ over an interval of any length, in steps that follow it.

@@ -7,8 +7,8 @@
 // closed form. With k_factored, that of the whole ray times the lit fraction of its samples (media/vsv_table.frag); with k_riemann,
 // the paper's sum over the centres of lit cells (media/vsv_riemann.frag). Deviation: a cell counts with what of it lies in the ray's
 // part in the medium.
-layout(constant_id = 6) const uint k_sum = 0;
-const uint k_runs = 0u;  // in the order of media::VsvIntegral
+layout(constant_id = 6) const uint k_sum = 0;  // media/vsv.cpp
+const uint k_runs = 0u;
 const uint k_riemann = 1u;
 const uint k_factored = 2u;
 

@@ -163,6 +163,17 @@ constexpr Function k_functions[] = {
     {"mean_decay", 1, 2 * k_single, 0},
     {"integrate_sun_run", 3, 2 * k_single, 4e-7, Scale::length},  // exp, see above
     {"sun_scale", 3, 2 * k_single, 0},
+    {"depth_growth", 1, 3 * k_single, 0},
+    {"panel_length_by_growth", 1, 3 * k_single, 0},
+    {"straight_length_by_growth", 1, 3 * k_single, 0},
+    {"sine_of_scattering", 1, 0, k_sine},
+    {"cone_share", 1, 0, 4e-6, Scale::one, 20},  // over a ramp of 0.25
+    {"range_share", 1, k_single, k_single},      // 1 − 1e5 at most, but then 0
+    // Where a plane but touches a cone, or a ray the range, roots of a difference that is 0 are lost.
+    {"half_width_of_cone", 1, k_angle, 5e-4, Scale::one, 20},
+    {"part_in_reach of cone", 4, k_angle, 2e-3, Scale::one, 100},
+    {"part_in_reach of range", 2, k_angle, 1e-3},
+    {"reach_share", 1, 0, 1e-4, Scale::one, 20},  // across the axis to 2e-7 of 0.02
 };
 
 std::vector<Inputs> random_inputs(int count) {

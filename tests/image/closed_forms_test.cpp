@@ -132,10 +132,9 @@ TEST_P(ClosedForm, ASphereCastsACone) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrals, ClosedForm,
-                         testing::Values(media::VsvIntegral::table, media::VsvIntegral::riemann),
-                         [](const auto& test) {
-                           return test.param == media::VsvIntegral::table ? "table" : "riemann";
-                         });
+                         testing::Values(media::VsvIntegral::table, media::VsvIntegral::quadrature,
+                                         media::VsvIntegral::riemann),
+                         [](const auto& test) { return tests::name_of(test.param); });
 
 TEST(EmptyFog, EqualsTheReferenceInEveryChannelWithLightInFrontAndBehind) {
   scene::View view;

@@ -47,8 +47,8 @@ TEST_P(Epipole, IsDarkBehindAWall) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrals, Epipole,
-                         testing::Values(media::VsvIntegral::table, media::VsvIntegral::riemann,
-                                         media::VsvIntegral::factored));
+                         testing::Values(media::VsvIntegral::table, media::VsvIntegral::quadrature,
+                                         media::VsvIntegral::riemann, media::VsvIntegral::factored));
 
 }  // namespace
 }  // namespace airlight

@@ -94,10 +94,9 @@ TEST_P(EmptyFogBy, IsBlackWhereNoLightArrives) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Integrals, EmptyFogBy, testing::Values(VsvIntegral::table, VsvIntegral::riemann),
-                         [](const auto& test) {
-                           return test.param == VsvIntegral::table ? "table" : "riemann";
-                         });
+INSTANTIATE_TEST_SUITE_P(Integrals, EmptyFogBy,
+                         testing::Values(VsvIntegral::table, VsvIntegral::quadrature, VsvIntegral::riemann),
+                         [](const auto& test) { return tests::name_of(test.param); });
 
 TEST(HeavyFog, KeepsItsDigitsWhereOnlyWhatLiesFarIsLit) {
   // What is lit lies e^−16 and more deeper than what is not: an integral counted from the eye would not hold
@@ -133,7 +132,7 @@ TEST(Lobes, AmongColumns) {
   for (const float g : {0.5f, -0.5f, 0.95f, -0.95f, 0.99f, -0.99f}) {
     view.medium.g = g;
     const tests::Truth truth = tests::trace(scene.geometry, view);
-    for (const VsvIntegral integral : {VsvIntegral::table, VsvIntegral::riemann}) {
+    for (const VsvIntegral integral : {VsvIntegral::table, VsvIntegral::quadrature, VsvIntegral::riemann}) {
       const auto error =
           tests::error_of(tests::render_vsv(scene.geometry, view, {.integral = integral}), truth);
       EXPECT_LT(error.rrmse, 0.01) << "g " << g;

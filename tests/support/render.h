@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -48,6 +50,12 @@ inline frame::FrameImages render_vsv(const scene::Geometry& geometry, const scen
     frame.render(view, no_shadow, vsv, timer);
   }
   return frame.read();
+}
+
+/// For messages and names of tests.
+inline std::string name_of(media::VsvIntegral integral) {
+  constexpr std::array<const char*, 5> k_names = {"automatic", "table", "quadrature", "riemann", "factored"};
+  return k_names.at(static_cast<std::size_t>(integral));
 }
 
 inline std::span<const float> values(const std::vector<glm::vec3>& image) {

@@ -7,11 +7,12 @@
 #include "frame/camera.glsl"
 #include "epipolar/conservative.glsl"
 #include "media/medium.glsl"
+#include "media/reach.glsl"
 #include "media/row_end.glsl"
 #include "media/sun.glsl"
 #include "media/table_place.glsl"
 
-CONST uint k_outputs = 169u;
+CONST uint k_outputs = 183u;
 
 struct Inputs {
   vec4 a;  // axis, D
@@ -116,6 +117,11 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   light.image_y = vec4(space.f / 2.0f, -0.2f);
   light.axis = l;
   light.inverse_distance = space.inverse_distance;
+  light.cone_axis = unit_or(any_vector - l, l);
+  light.cone_outer = 0.9f;
+  light.cone_ramp = 4.0f;
+  light.inverse_range = 0.3f * space.inverse_distance;
+  light.unused_0 = light.unused_1 = 0.0f;
 
   CameraBlock camera;
   camera.eye_high = 100.0f * ray;
@@ -290,6 +296,31 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   falling.slope = g;
   put(outputs, at, integrate_sun_run(medium, falling, 0.2f * t, 0.9f * t));
   put(outputs, at, sun_scale(light, medium, k_henyey_greenstein, alpha));
+
+  // What panels follow; a lamp above a layer; a spot with a range.
+  float growth = depth_growth(space, medium, complement, phi);
+  put(outputs, at, growth);
+  put(outputs, at, float(panel_length_by_growth(medium, k_hoffman_preetham, complement, phi, growth)));
+  put(outputs, at, float(straight_length_by_growth(medium, k_hoffman_preetham, complement, phi, growth)));
+  LayerRay in_layer;
+  in_layer.direction = ray;
+  in_layer.outward = unit_or(ray - dot(ray, l) * l, space.u);
+  in_layer.alpha = alpha;
+  in_layer.complement = complement;
+  in_layer.entry = 0.0f;
+  put(outputs, at, float(sine_of_scattering(in_layer, phi)));
+  put(outputs, at, cone_share(light, ray));
+  put(outputs, at, range_share(light, t));
+  put(outputs, at, float(half_width_of_cone(light.cone_outer, 0.5f * g)));
+  LitPart part_lit = part_in_reach(space, light, k_reach_of_cone, in_layer, Angle(0.0f), complement);
+  put(outputs, at, float(part_lit.from));
+  put(outputs, at, float(part_lit.to));
+  put(outputs, at, float(part_lit.inner_from));
+  put(outputs, at, float(part_lit.inner_to));
+  part_lit = part_in_reach(space, light, k_reach_of_range, in_layer, Angle(0.0f), complement);
+  put(outputs, at, float(part_lit.from));
+  put(outputs, at, float(part_lit.to));
+  put(outputs, at, reach_share(space, light, k_reach_of_cone, in_layer, phi));
 }
 
 #endif
