@@ -28,6 +28,7 @@ std::vector<CyclesImage> all_images() {
   images.insert(images.end(), std::begin(tests::k_cycles_sun_airlight),
                 std::end(tests::k_cycles_sun_airlight));
   images.push_back(tests::k_cycles_sun_full);
+  images.push_back(tests::k_cycles_spot_airlight);
   images.push_back(tests::k_cycles_three_full);
   return images;
 }

@@ -25,9 +25,9 @@ struct CyclesImage {
   float albedo;
   std::optional<double> fog_top = {};
   scene::LightKind kind = scene::LightKind::point;
-  std::vector<scene::Light> more_lights = {};
   std::optional<glm::dvec3> spot_target = {};
   double spot_degrees = 0;  ///< half-angle of the spot's cone, which ends in a step
+  std::vector<scene::Light> more_lights = {};
 
   std::filesystem::path image_file() const { return shared_file("truth/" + std::string(image) + ".exr"); }
   std::filesystem::path scene_file() const { return shared_file("scenes/" + std::string(scene) + ".glb"); }
@@ -76,7 +76,7 @@ inline const CyclesImage k_cycles_spot_airlight =
 inline const CyclesImage k_cycles_sun_full =
     {"fence_sun_full", "victorian_fence_19k", {0.3, 0.5, 3}, {0, 0.4, 0}, 45, {-0.5, 0.6, 1}, 10, 0.25f, 0, 0, 0.5f, 4, scene::LightKind::sun};
 inline const CyclesImage k_cycles_three_full =
-    {"cornell_three_full", "cornell_box_36", {0, 1, 3.6}, {0, 1, 0}, 40, {0.2, 1.85, 0.1}, 2, 0.3f, 0.05f, 0, 0.5f, {}, scene::LightKind::point,
+    {"cornell_three_full", "cornell_box_36", {0, 1, 3.6}, {0, 1, 0}, 40, {0.2, 1.85, 0.1}, 2, 0.3f, 0.05f, 0, 0.5f, {}, scene::LightKind::point, {}, 0,
      {scene::point_light("", {-0.7, 0.5, 0.8}, glm::vec3(0.7f)), scene::point_light("", {0.6, 1.2, -0.6}, glm::vec3(1.2f))}};
 // clang-format on
 
