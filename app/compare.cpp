@@ -74,10 +74,11 @@ void compare(const Options& options) {
   if (json && *json != "-") require_writable(*json);
   if (!options.quiet) say_warnings(subject.scene.report);
 
-  require_memory({.size = subject.view.size,
-                  .bytes_per_pixel = k_bytes_of_compare + k_bytes_of_light * (subject.view.lights.size() - 1),
-                  .shadow_map = quality::is_read("shadow-map", volumes, surfaces) ? shadow_map : 0,
-                  .triangles = subject.scene.geometry.triangles.size()});
+  require_memory(
+      {.size = subject.view.size,
+       .bytes_per_pixel = k_bytes_of_compare + k_bytes_of_compared_light * (subject.view.lights.size() - 1),
+       .shadow_map = quality::is_read("shadow-map", volumes, surfaces) ? shadow_map : 0,
+       .triangles = subject.scene.geometry.triangles.size()});
   const auto command = [&](const quality::VolumeChoice& volume, const quality::SurfaceChoice& surface) {
     // What is asked of all pairs, and what this one does not read, is left out.
     std::vector<std::string> without = {"volume", "surface", "json", "max-error"};

@@ -46,10 +46,11 @@ void render(const Options& options) {
   require_writable(preview);
   if (!options.quiet) say_warnings(subject.scene.report);
 
-  require_memory({.size = subject.view.size,
-                  .bytes_per_pixel = k_bytes_of_render + k_bytes_of_light * (subject.view.lights.size() - 1),
-                  .shadow_map = quality::is_read("shadow-map", volumes, surfaces) ? shadow_map : 0,
-                  .triangles = subject.scene.geometry.triangles.size()});
+  require_memory(
+      {.size = subject.view.size,
+       .bytes_per_pixel = k_bytes_of_render + k_bytes_of_rendered_light * (subject.view.lights.size() - 1),
+       .shadow_map = quality::is_read("shadow-map", volumes, surfaces) ? shadow_map : 0,
+       .triangles = subject.scene.geometry.triangles.size()});
   frame::FrameImages images;
   std::string renderer;
   {
