@@ -84,7 +84,7 @@ void compare(const Options& options) {
   require_memory(
       {.size = subject.view.size,
        .bytes_per_pixel =
-           k_bytes_of_compare + k_bytes_of_light * (subject.view.lights.size() - 1) +
+           k_bytes_of_compare + k_bytes_of_compared_light * (subject.view.lights.size() - 1) +
            (subject.path ? subject.path->views.size() * subject.view.lights.size() * k_bytes_of_path_frame
                          : 0),
        .shadow_map = quality::is_read("shadow-map", volumes, surfaces) ? shadow_map : 0,

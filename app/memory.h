@@ -23,8 +23,8 @@ constexpr std::size_t k_bytes_of_path = 120;
 /// The same and the truth, a run's images, and what its errors are found in.
 constexpr std::size_t k_bytes_of_compare = 190;
 
-/// What each further light adds: its airlight and visibility, and a copy of each.
-constexpr std::size_t k_bytes_of_light = 40;
+/// What each light beside the first adds to them: its airlight and visibility, a copy of each, and its truth.
+constexpr std::size_t k_bytes_of_rendered_light = 40, k_bytes_of_compared_light = 70;
 
 /// The truth of each of a path's frames, by one light.
 constexpr std::size_t k_bytes_of_path_frame = 20;

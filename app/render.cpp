@@ -112,7 +112,7 @@ void render(const Options& options) {
 
   require_memory({.size = subject.view.size,
                   .bytes_per_pixel = (subject.path ? k_bytes_of_path : k_bytes_of_render) +
-                                     k_bytes_of_light * (subject.view.lights.size() - 1),
+                                     k_bytes_of_rendered_light * (subject.view.lights.size() - 1),
                   .shadow_map = quality::is_read("shadow-map", volumes, surfaces) ? shadow_map : 0,
                   .triangles = subject.scene.geometry.triangles.size()});
   Images images{.options = options,

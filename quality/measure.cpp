@@ -120,12 +120,12 @@ Measurer::TimedFrame Measurer::render_timed(frame::SurfaceShadow& shadow, frame:
   for (std::size_t light = 0; light < view_->lights.size(); ++light)
     timed.light_stages_ms.push_back(timer.milliseconds(light));
   // An image that was kept costs what it cost when it was traced.
-  for (const auto& [light, kept] : timed.work.kept) {
-    timed.ms += kept.airlight_ms + kept.surface_ms;
-    if (!with_stages) continue;
-    for (auto* stages : {&timed.stages_ms, &timed.light_stages_ms[light]}) {
-      if (kept.airlight_ms > 0.0) (*stages)["integrate"] += kept.airlight_ms;
-      if (kept.surface_ms > 0.0) (*stages)["surface_query"] += kept.surface_ms;
+  timed.ms += timed.work.kept_airlight_ms + timed.work.kept_surface_ms;
+  if (!with_stages) return timed;
+  for (const auto& [light, stages] : timed.work.kept_stages_ms) {
+    for (const auto& [stage, ms] : stages) {
+      timed.stages_ms[stage] += ms;
+      timed.light_stages_ms[light][stage] += ms;
     }
   }
   return timed;

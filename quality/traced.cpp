@@ -193,7 +193,8 @@ bool SharedReference::load_exact(std::size_t light, int refinement) {
 const reference::SurfaceImage& SharedReference::surfaces(std::size_t light) {
   OfLight& of_light = lights_[light];
   if (load_surfaces(light)) {
-    work_.kept[light].surface_ms += of_light.surfaces_ms;
+    work_.kept_surface_ms += of_light.surfaces_ms;
+    work_.kept_stages_ms[light]["surface_query"] += of_light.surfaces_ms;
     return *of_light.surfaces;
   }
   const reference::Reference& reference = rays(light);
@@ -220,7 +221,10 @@ const reference::AirlightImage& SharedReference::exact(std::size_t light, int re
   }
   const reference::AirlightImage& image = of_light.exact.at(refinement);
   count(image);
-  if (is_kept) work_.kept[light].airlight_ms += image.ms;
+  if (is_kept) {
+    work_.kept_airlight_ms += image.ms;
+    work_.kept_stages_ms[light]["integrate"] += image.ms;
+  }
   return image;
 }
 

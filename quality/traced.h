@@ -42,14 +42,14 @@ class SharedReference {
 
   /// What was asked for since the last `take_work`.
   struct Work {
-    /// What was not spent now, because the image had been kept.
-    struct Kept {
-      double airlight_ms = 0.0, surface_ms = 0.0;
-    };
-    std::uint64_t airlight_rays = 0;   ///< occlusion rays for airlight
-    double airlight_ms = 0.0;          ///< time of tracing airlight, kept or not
-    std::map<std::size_t, Kept> kept;  ///< by light
-    double self_error = 0.0;           ///< the largest of reference::AirlightImage::self_error
+    std::uint64_t airlight_rays = 0;  ///< occlusion rays for airlight
+    double airlight_ms = 0.0;         ///< time of tracing airlight
+    double kept_airlight_ms =
+        0.0;  ///< the part of `airlight_ms` not spent now, because the image had been kept
+    double kept_surface_ms = 0.0;  ///< the same for surfaces
+    double self_error = 0.0;       ///< the largest of reference::AirlightImage::self_error
+    /// What was not spent now, for each light by the stage that it would have been spent in.
+    std::map<std::size_t, std::map<std::string, double>> kept_stages_ms;
   };
   Work take_work() { return std::exchange(work_, {}); }
 

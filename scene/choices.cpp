@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <vector>
@@ -15,8 +16,8 @@ namespace {
 
 constexpr std::string_view k_all_lights = "all";
 
-template <typename Thing>
-std::string list(const std::vector<Thing>& things) {
+template <typename Things>
+std::string list(const Things& things) {
   std::string text;
   for (std::size_t i = 0; i < things.size(); ++i)
     text += fmt::format("{}'{}' ({})", i == 0 ? "" : ", ", printable(things[i].name), i);
@@ -80,8 +81,14 @@ void name_lights(std::vector<Light>& lights) {
     if (lights[i].name.empty()) name(lights[i], "light", i);
 }
 
+bool has(const std::vector<Light>& lights, const std::string& name) {
+  return std::any_of(lights.begin(), lights.end(), [&](const Light& light) { return light.name == name; });
+}
+
 /// The lights that one light's choices make: a new one, or some of those that the scene brings.
-std::vector<Light> choose_light(const Choices& choices, const std::vector<Light>& brought) {
+/// @param on those of them that are on
+std::vector<Light> choose_light(const Choices& choices, const std::vector<Light>& brought,
+                                std::span<const Light> on) {
   const FieldInfo &position = field<Light>("light-position"), &intensity = field<Light>("intensity"),
                   &texture = field<Light>("light-texture"), &target = field<Light>("spot-target"),
                   &cone = field<Light>("spot-angles"), &range = field<Light>("range"),
@@ -98,8 +105,8 @@ std::vector<Light> choose_light(const Choices& choices, const std::vector<Light>
   std::vector<Light> chosen;
   if (const FieldValue* choice = choices.get(light_choice())) {
     if (place) throw contradiction(light_choice(), *place);
-    if (std::get<std::string>(*choice) == k_all_lights && !brought.empty())
-      chosen = brought;
+    if (std::get<std::string>(*choice) == k_all_lights && !on.empty())
+      chosen.assign(on.begin(), on.end());
     else
       chosen = {brought[find(choices, light_choice(), brought)]};
   } else if (place) {
@@ -111,15 +118,15 @@ std::vector<Light> choose_light(const Choices& choices, const std::vector<Light>
     const auto first =
         std::find_if(all.begin(), all.end(), [&](const FieldInfo* info) { return choices.get(*info); });
     const FieldInfo& given = first == all.end() ? light_choice() : **first;
-    if (brought.empty())
+    if (on.empty())
       throw choices.error(
           given, "the scene has no light",
           fmt::format("place one by {} and {}, or by {} and {}", choices.spell(position),
                       choices.spell(intensity), choices.spell(sun), choices.spell(irradiance)));
-    if (brought.size() > 1)
-      throw choices.error(given, fmt::format("the scene has {}", list(brought)),
+    if (on.size() > 1)
+      throw choices.error(given, fmt::format("the scene has several lights, {}", list(on)),
                           fmt::format("say which one is meant by {}", choices.spell(light_choice())));
-    chosen = brought;
+    chosen.assign(on.begin(), on.end());
   }
   for (Light& light : chosen) {
     choose(choices, light);
@@ -129,24 +136,29 @@ std::vector<Light> choose_light(const Choices& choices, const std::vector<Light>
   return chosen;
 }
 
-void choose_lights(std::span<const std::unique_ptr<const Choices>> choices, std::vector<Light>& lights) {
-  name_lights(lights);
-  if (choices.empty()) return;
-  std::vector<Light> chosen;
+void choose_lights(std::span<const std::unique_ptr<const Choices>> choices, Scene& scene) {
+  std::vector<Light> brought = scene.lights;
+  brought.insert(brought.end(), scene.other_lights.begin(), scene.other_lights.end());
+  name_lights(brought);
+  const std::span on(brought.begin(), scene.lights.size());
+  std::vector<Light> lights;
+  if (choices.empty()) lights.assign(on.begin(), on.end());
   for (const auto& of_light : choices) {
-    for (Light& light : choose_light(*of_light, lights)) {
-      const bool is_there =
-          !light.name.empty() && std::any_of(chosen.begin(), chosen.end(),
-                                             [&](const Light& other) { return other.name == light.name; });
-      if (is_there)
+    for (Light& light : choose_light(*of_light, brought, on)) {
+      if (!light.name.empty() && has(lights, light.name))
         throw of_light->error(light_choice(),
                               fmt::format("the light '{}' is chosen twice", printable(light.name)),
                               "choose it once");
-      chosen.push_back(std::move(light));
+      lights.push_back(std::move(light));
     }
   }
-  lights = std::move(chosen);
+  // Those that are new are named, too.
+  const auto count = static_cast<std::ptrdiff_t>(lights.size());
+  std::copy_if(brought.begin(), brought.end(), std::back_inserter(lights),
+               [&](const Light& light) { return !has(lights, light.name); });
   name_lights(lights);
+  scene.lights.assign(lights.begin(), lights.begin() + count);
+  scene.other_lights.assign(lights.begin() + count, lights.end());
 }
 
 }  // namespace
@@ -173,7 +185,7 @@ bool names_light(const FieldInfo& field) {
 void choose_all(const Choices& choices, std::span<const std::unique_ptr<const Choices>> lights,
                 Scene& scene) {
   choose_camera(choices, scene.cameras, scene.geometry);
-  choose_lights(lights, scene.lights);
+  choose_lights(lights, scene);
   choose(choices, scene.medium);
   choose(choices, scene);
 }

@@ -183,7 +183,8 @@ struct Scene {
   std::string name;
   Geometry geometry;
   std::vector<Camera> cameras;
-  std::vector<Light> lights;
+  std::vector<Light> lights;        ///< all of them are on
+  std::vector<Light> other_lights;  ///< brought along and off, because others were chosen
   Medium medium;
   std::optional<float> exposure;  ///< of PNG previews: linear radiance is multiplied by it; automatic without
   ImportReport report;

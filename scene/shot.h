@@ -42,7 +42,8 @@ namespace airlight::scene {
 ///
 /// Everything but `scene` may be left out. Keys mean what the command line's options of these names mean; a
 /// camera or a light without a name of its own is named by its number from 0, as in name = "0". Lights stand
-/// in for the scene's; without a name or a place, a light's keys change the scene's only one.
+/// in for the scene's, which are off then, and chosen by name alone; without a name or a place, a light's
+/// keys change the scene's only one.
 /// @param triangles asked for in place of the shot's own
 /// @param read_light_texture without it, a shot that names a texture is refused
 /// @returns the scene; its first camera, its lights, its medium and its exposure are the shot's

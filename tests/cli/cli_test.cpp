@@ -794,7 +794,8 @@ TEST_F(SeveralLights, OfAShotAreAllOnUnlessChosen) {
       << "of one light the options may stand before it";
   const Result unsaid = airlight({"render", "two.toml", "-o", "x.exr", "--intensity", "1"});
   expect_one_line_error(unsaid, 2);
-  EXPECT_THAT(unsaid.err, HasSubstr("--intensity: the scene has 'ceiling' (0), 'light1' (1); say which one"));
+  EXPECT_THAT(unsaid.err,
+              HasSubstr("--intensity: the scene has several lights, 'ceiling' (0), 'light1' (1); say"));
 }
 
 TEST_F(SeveralLights, ThatCannotReachTheViewAreSkippedAndSaidToBe) {
@@ -806,7 +807,6 @@ TEST_F(SeveralLights, ThatCannotReachTheViewAreSkippedAndSaidToBe) {
   EXPECT_EQ(results["runs"][0]["skipped_lights"], 1);
   EXPECT_EQ(results["runs"][0]["lights"][1]["skipped"], true);
   EXPECT_EQ(results["runs"][1]["skipped_lights"], 0) << "the truth sees every light";
-  EXPECT_EQ(results["runs"][1]["error"]["surface"]["wrong_pixels"], 0);
   EXPECT_EQ(2 * results["runs"][0]["error"]["surface"]["pixels"].get<int>(),
             results["runs"][1]["error"]["surface"]["pixels"].get<int>());
 }

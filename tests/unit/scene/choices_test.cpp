@@ -77,6 +77,16 @@ TEST(Lights, AreThoseChosenInTheirOrder) {
       << "a new one takes no name that is taken";
 }
 
+TEST(Lights, ThatAreOffCanBeChosenByName) {
+  Scene scene;
+  EXPECT_THAT(chosen({"a", "b"}, {k_lamp}, scene), ElementsAre("light0"));
+  EXPECT_THAT(chosen({}, {{{"light", "all"}}}, scene), ElementsAre("light0"));
+  EXPECT_THAT(chosen({}, {{{"light", "b"}}, {{"light", "light0"}}, k_lamp}, scene),
+              ElementsAre("b", "light0", "light2"));
+  ASSERT_EQ(scene.other_lights.size(), 1u);
+  EXPECT_EQ(scene.other_lights[0].name, "a");
+}
+
 TEST(Lights, HaveTheirOwnFields) {
   Scene scene;
   chosen({"a", "b", "c"}, {{{"light", "a"}, {"intensity", "3"}}, {{"light", "b"}}}, scene);
@@ -94,8 +104,10 @@ TEST(Lights, HaveTheirOwnFields) {
 }
 
 TEST(Lights, AreRefusedWhereItIsNotSaidWhichAreMeant) {
-  EXPECT_THAT(refusal({"a", "b"}, {{{"intensity", "3"}}}),
-              HasSubstr("intensity: the scene has 'a' (0), 'b' (1); say which one is meant by light"));
+  EXPECT_THAT(
+      refusal({"a", "b"}, {{{"intensity", "3"}}}),
+      HasSubstr(
+          "intensity: the scene has several lights, 'a' (0), 'b' (1); say which one is meant by light"));
   EXPECT_THAT(refusal({}, {{{"intensity", "3"}}}), HasSubstr("intensity: the scene has no light; place one"));
   EXPECT_THAT(refusal({}, {{{"light", "all"}}}), HasSubstr("light: the scene has no 'all'; it has none"));
   EXPECT_THAT(refusal({"a"}, {{{"light", "b"}}}), HasSubstr("the scene has no 'b'; it has 'a' (0)"));

@@ -202,6 +202,7 @@ TEST_F(Shot, HasASunInPlaceOfALamp) {
       "scene = 'cornell'\n[sun]\ntowards = [0, 3, 4]\nirradiance = [3, 2.5, 1]\n"
       "[medium]\nfog_top = 16\n");
   ASSERT_EQ(scene.lights.size(), 1u) << "it stands in for the scene's";
+  EXPECT_EQ(scene.other_lights.at(0).name, "ceiling");
   const Light& sun = scene.lights[0];
   ASSERT_TRUE(is_sun(sun));
   EXPECT_NEAR(glm::distance(sun.towards, D(0, 0.6, 0.8)), 0.0, 1e-15);
