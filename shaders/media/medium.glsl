@@ -134,15 +134,15 @@ FUNCTION Angle straight_length_by_growth(IN(MediumBlock) medium, uint kind, Angl
   return Angle(size);
 }
 
-// By how much the depth grows along φ where it is that of t + r, which grows as cot(ψ/2).
-FUNCTION float depth_growth(IN(EpipolarBlock) space, IN(MediumBlock) medium, Angle complement, Angle phi) {
+// By how much the depth grows along φ where it is that of t + r, which grows as cot(ψ/2); `sigma`: the extinction coefficient [1/m].
+FUNCTION float depth_growth(IN(EpipolarBlock) space, float sigma, Angle complement, Angle phi) {
   float half_sine = sine_of_quarter(Angle(0.5f * max(float(complement - phi), 1e-8f)));
-  float sigma = steepest_channel(medium, path_length(space, complement, phi));
   return 0.5f * sigma * space.distance * sine(complement) / (half_sine * half_sine);
 }
 
 FUNCTION Angle smooth_length(IN(EpipolarBlock) space, IN(MediumBlock) medium, uint kind, Angle complement, Angle phi) {
-  return smooth_length_by_growth(medium, kind, complement, phi, depth_growth(space, medium, complement, phi));
+  float sigma = steepest_channel(medium, path_length(space, complement, phi));
+  return smooth_length_by_growth(medium, kind, complement, phi, depth_growth(space, sigma, complement, phi));
 }
 
 // ∫ airlight_integrand dφ over an interval of any length, in steps that follow it.

@@ -122,11 +122,13 @@ void main() {
         growth = scales.growth;
         longest = k_panel_psi * scales.to_level;
       } else {
-        if (lightest * (path_length(space, in_plane.complement, from) - space.distance) > k_faint) {
+        float detour = path_length(space, in_plane.complement, from) - space.distance;  // what it is longer than at the eye
+        if (lightest * detour > k_faint) {
           runs.has_next = false;
           break;
         }
-        growth = depth_growth(space, fog, in_plane.complement, from);
+        // A channel is followed as long as its light counts beside its own.
+        growth = depth_growth(space, steepest_channel(fog, k_dark / k_faint * detour), in_plane.complement, from);
       }
       longest = min(longest, panel_length_by_growth(fog, k_phase, in_plane.complement, from, growth));
       if ((k_reach & k_reach_of_range) != 0u)

@@ -298,7 +298,7 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   put(outputs, at, sun_scale(light, medium, k_henyey_greenstein, alpha));
 
   // What panels follow; a lamp above a layer; a spot with a range.
-  float growth = depth_growth(space, medium, complement, phi);
+  float growth = depth_growth(space, 0.2f, complement, phi);
   put(outputs, at, growth);
   put(outputs, at, float(panel_length_by_growth(medium, k_hoffman_preetham, complement, phi, growth)));
   put(outputs, at, float(straight_length_by_growth(medium, k_hoffman_preetham, complement, phi, growth)));
