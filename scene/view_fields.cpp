@@ -245,7 +245,7 @@ std::span<const Field<Light>> fields() {
            .kind = direction,
            .placeholder = "X,Y,Z",
            .label = "towards",
-           .meaning = "direction towards the sun, of any length; the sun stands in for a lamp",
+           .meaning = "direction towards the light, of any length, which makes it a sun",
            .note = "needs --irradiance",
            .own_key = "towards"},
           set_direction,
@@ -329,19 +329,19 @@ const FieldInfo& camera_choice() {
 }
 
 const FieldInfo& light_choice() {
-  static constexpr FieldInfo k_info = {"light",
-                                       "light",
-                                       word,
-                                       "NAME|N|all",
-                                       "",
-                                       "one of the scene's lights, by name or number from 0, or all of them",
-                                       "",
-                                       "as --light-position, --sun and --sun-angles, it begins a light: "
-                                       "options of lights that follow are this "
-                                       "one's, up to the next; lights given so stand in for the scene's. "
-                                       "Before all of them, they are the only "
-                                       "light's",
-                                       "all"};
+  static constexpr FieldInfo k_info = {
+      "light",
+      "light",
+      word,
+      "NAME|N|all",
+      "",
+      "one of the scene's lights, by name or number from 0, or all of them",
+      "",
+      "it begins a light, as --light-position, --sun and --sun-angles do: the options of lights that follow, "
+      "up to the next of these, belong to it; lights given so stand in for the scene's, and what stands "
+      "before "
+      "them belongs to the only light",
+      "all"};
   return k_info;
 }
 

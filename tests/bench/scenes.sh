@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The figures of README.md and docs/figures.md:
-# `tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|curves|cost|leaks|causes|path [OUT]`.
+# `tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|lights|curves|cost|leaks|causes|path [OUT]`.
 # The paper's Tables 2 to 4 and the bandwidth: build/release/tests/bench/airlight_tables, after ./test.
 #
 # truth     the exact reference against itself refined, against rays, 256×256 and 512×512 pixels
@@ -10,6 +10,7 @@
 # sun-speed the same at 1024×1024, a shadow map of 2048², against 512 shadow rays a pixel
 # sun-curves  the error as each count of the grid and the shadow map doubles
 # far       lamps 10² to 10⁵ m from the eye through the window, 512×512: fog as thin as lets their light arrive
+# lights    1, 2, 4 and 8 lamps that share the power of one, 512×512: time, error and the stages of each
 # curves    the error as each count of the grid doubles, the others at their defaults
 # cost      every population × integral × ranges, 1024×1024 pixels: time, error and stages (the paper's Table 1)
 # leaks     the three populations on closed and open models, 512×512 pixels
@@ -104,6 +105,21 @@ case ${1:-} in
       compare far --size 512x512 -o "$out/far_$distance" --volume vsv --frames 1 --quiet
     done
     ;;
+  lights)
+    for n in 1 2 4 8; do
+      # From the view's own lamp on, a metre and a half apart.
+      lamps() { # X Y,Z WATTS_PER_SR
+        awk -v n=$n -v x="$1" -v rest="$2" -v power="$3" 'BEGIN { for (i = 0; i < n; ++i)
+          printf " --light-position=%g,%s --intensity %g", x - 1.5 * i, rest, power / n }'
+      }
+      view[lights_window]="window $(lamps -4.5 13,-20 43000)"
+      view[lights_sponza]="$scenes/sponza_262k.glb --eye=-12,3,-0.5 --target 0,5,0 --fov 60 --sigma-s 0.04 --sigma-a 0.01
+        $(lamps 3 7,0 300)"
+      for scene in lights_window lights_sponza; do
+        compare $scene --size 512x512 -o "$out/${scene}_$n" --volume vsv --frames 9 --quiet
+      done
+    done
+    ;;
   curves)
     grids=vsv
     for n in 64 128 256; do grids+=,vsv:alpha=$n; done
@@ -158,7 +174,7 @@ case ${1:-} in
     done
     ;;
   *)
-    echo "usage: tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|curves|cost|leaks|causes|path [OUT]" >&2
+    echo "usage: tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|lights|curves|cost|leaks|causes|path [OUT]" >&2
     exit 2
     ;;
 esac

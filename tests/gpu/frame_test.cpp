@@ -72,7 +72,8 @@ void expect_sum_of_lights(const media::VsvOptions& options, const scene::View& v
   for (std::size_t light = 0; light < view.lights.size(); ++light) {
     scene::View alone = view;
     alone.lights = {view.lights[light]};
-    const FrameImages one = render(frame, alone, shadow, vsv);
+    media::Vsv fresh(gpu_context(), options);  // it remembers no other light
+    const FrameImages one = render(frame, alone, shadow, fresh);
     EXPECT_TRUE(std::any_of(one.airlight.begin(), one.airlight.end(),
                             [](const glm::vec3& value) { return value.g > 0.0f; }))
         << "light " << light << " is inside of something";
