@@ -72,7 +72,7 @@ void compare(const Options& options) {
     }
   }
   Subject subject = make_subject(options);
-  fit_to_view(options, volumes, surfaces, subject);
+  fit_to_view(volumes, surfaces, subject);
   const std::filesystem::path folder =
       options.output.empty() ? std::filesystem::path("out") / std::filesystem::path(options.scene).stem()
                              : std::filesystem::path(options.output);

@@ -193,18 +193,8 @@ void require_read(const Options& options, std::span<const quality::VolumeChoice>
   quality::require_read(given, volumes, surfaces);
 }
 
-void fit_to_view(const Options& options, std::vector<quality::VolumeChoice>& volumes,
-                 std::vector<quality::SurfaceChoice>& surfaces, Subject& subject) {
-  // A usual method's options are not the user's choice, but for those that the command gives. Where none can
-  // show the view, the first says why.
-  const auto is_refused = [&](const quality::VolumeChoice& volume) {
-    return std::any_of(subject.views().begin(), subject.views().end(), [&](const scene::View& view) {
-      const auto refusal = volume.method->refusal(volume.options, view);
-      return refusal && !options.get("volume") &&
-             !options.get(refusal->where.substr(0, refusal->where.find('=')));
-    });
-  };
-  if (!std::all_of(volumes.begin(), volumes.end(), is_refused)) std::erase_if(volumes, is_refused);
+void fit_to_view(std::vector<quality::VolumeChoice>& volumes, std::vector<quality::SurfaceChoice>& surfaces,
+                 Subject& subject) {
   for (quality::VolumeChoice& volume : volumes) volume.fit(subject.views());
   for (quality::SurfaceChoice& surface : surfaces) surface.fit(subject.views());
   quality::warn_of_open_parts(volumes, surfaces, subject.scene);

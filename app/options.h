@@ -73,10 +73,10 @@ std::vector<quality::SurfaceChoice> parse_surfaces(const Options& options);
 void require_read(const Options& options, std::span<const quality::VolumeChoice> volumes,
                   std::span<const quality::SurfaceChoice> surfaces);
 
-/// Fits methods to the view. Of usual ones, those that cannot show it are left out.
+/// Fits methods to the view.
 /// @throws scene::Error (usage) where a method asked for cannot show it
-void fit_to_view(const Options& options, std::vector<quality::VolumeChoice>& volumes,
-                 std::vector<quality::SurfaceChoice>& surfaces, Subject& subject);
+void fit_to_view(std::vector<quality::VolumeChoice>& volumes, std::vector<quality::SurfaceChoice>& surfaces,
+                 Subject& subject);
 
 /// --shadow-map [texels]
 int shadow_map_size(const Options& options);

@@ -101,7 +101,7 @@ void render(const Options& options) {
   if (surfaces.size() != 1)
     throw Error(ExitCode::usage, "--surface", "render takes one method", "compare takes several");
   Subject subject = make_subject(options);
-  fit_to_view(options, volumes, surfaces, subject);
+  fit_to_view(volumes, surfaces, subject);
   const quality::VolumeChoice& volume = volumes[0];
   const quality::SurfaceChoice& surface = surfaces[0];
   if (output.has_parent_path()) require_folder(output.parent_path());

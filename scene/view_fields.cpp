@@ -203,7 +203,7 @@ std::span<const Field<Light>> fields() {
           {"light", "light-texture", file, "FILE.exr", "textured by",
            "what the light radiates by direction, relative to its intensity: an equirectangular image, "
            "+Y at the top, +Z in the middle, +X to the left of it",
-           "", "for vsv it needs integral=riemann"},
+           "", ""},
           [](const Light& light) { return lack_in_sun(light, "texture", "textured lights are lamps"); }),
       Field<Light>{{.group = "light",
                     .name = "spot-target",

@@ -586,9 +586,11 @@ TEST_F(TexturedLight, ColoursTheImageInEveryMethodByDefault) {
 
 TEST_F(TexturedLight, IsComparedByTheMethodsThatCanTakeIt) {
   const Json results = compare({"--light-texture", "light.exr"});
-  ASSERT_EQ(results["runs"].size(), 2u);
-  EXPECT_EQ(results["runs"][0]["volume"], "vsv:integral=riemann");
-  EXPECT_EQ(results["runs"][1]["volume"], "reference-march");
+  ASSERT_EQ(results["runs"].size(), 3u);
+  EXPECT_EQ(results["runs"][0]["volume"], "vsv");
+  EXPECT_EQ(results["runs"][0]["settings"]["integral"], "quadrature");
+  EXPECT_EQ(results["runs"][1]["volume"], "vsv:integral=riemann");
+  EXPECT_EQ(results["runs"][2]["volume"], "reference-march");
   EXPECT_LT(results["runs"][0]["error"]["airlight"]["rrmse"], 0.1);
   EXPECT_EQ(results["view"]["lights"][0]["texture"], "light.exr");
   EXPECT_THAT(tests::schema_violations(results, Json::parse(read_text(AIRLIGHT_SCHEMA))), IsEmpty());
@@ -598,7 +600,7 @@ TEST_F(TexturedLight, IsComparedByTheMethodsThatCanTakeIt) {
 TEST_F(TexturedLight, OfAShotIsThatOfTheOption) {
   fs::create_directory(file("shots"));
   std::ofstream(file("shots/lantern.toml")) << "scene = 'cornell'\n[light]\ntexture = '../light.exr'\n";
-  const Image shot = render({"shots/lantern.toml", "--volume", "vsv:integral=riemann"});
+  const Image shot = render({"shots/lantern.toml", "--volume", "vsv"});
   EXPECT_EQ(shot.channels, render({"--light-texture", "light.exr"}).channels);
   // As seen from where the program ran.
   EXPECT_EQ(shot.metadata.at("airlight.light-texture"), "shots/../light.exr");
@@ -610,7 +612,7 @@ TEST_F(TexturedLight, OfAShotIsThatOfTheOption) {
 }
 
 TEST_F(TexturedLight, IsRefusedByTheOthersBeforeTheDriverIsWoken) {
-  for (const Words& words : {Words{"--volume", "vsv"},
+  for (const Words& words : {Words{"--volume", "vsv:integral=table"},
                              {"--volume", "vsv:integral=factored"},
                              {"--integral", "table"},
                              {"--integral", "factored"}}) {
@@ -619,7 +621,7 @@ TEST_F(TexturedLight, IsRefusedByTheOthersBeforeTheDriverIsWoken) {
     all.insert(all.end(), words.begin(), words.end());
     const Result result = airlight(all);
     expect_one_line_error(result, 2);
-    EXPECT_THAT(result.err, HasSubstr("integral=riemann"));
+    EXPECT_THAT(result.err, HasSubstr("integral=quadrature"));
     all[0] = "compare";
     expect_one_line_error(airlight(all), 2);
   }

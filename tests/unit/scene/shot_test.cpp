@@ -259,10 +259,10 @@ TEST_F(Shot, RefusesSeveralLightsThatCannotBe) {
                "line 5, light.position: it needs intensity");
   expect_error(scene + "[[light]]\nposition = [0, 1, 0]\ntowards = [0, 1, 0]\n",
                "line 3, light.position: towards contradicts it");
-  expect_error(scene + "[[light]]\nfov = 30\n", "line 3: there is no key 'fov' in [light]");
+  expect_error(scene + "[[light]]\nfov = 30\n", "line 3: there is no key 'fov' in [[light]]");
   expect_error(scene + "[[light]]\n[sun]\n", "line 3, sun: [light] contradicts it");
   expect_error(scene + "[[sun]]\n", "sun: it must be a table, begun by [sun]");
-  expect_error(scene + "light = [1, 2]\n", "line 2, light: it must be a table, begun by [light]");
+  expect_error(scene + "light = [1, 2]\n", "line 2, light: it must be tables, each begun by [[light]]");
 }
 
 TEST_F(Shot, MakesALampASpotWhateverComesFirst) {

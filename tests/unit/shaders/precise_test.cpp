@@ -73,15 +73,16 @@ void expect_precise(std::span<const std::uint32_t> words, std::initializer_list<
 }
 
 TEST(Precise, PositionsAndSinesAreNotReordered) {
-  expect_precise(k_populate_conservative_comp, {"eye_relative", "less_half_turns", "sine_of_quarter"});
+  expect_precise(k_populate_conservative_comp, {"relative_to", "less_half_turns", "sine_of_quarter"});
 }
 
 TEST(Precise, WhichSideOfAnEdgeARayPassesIsTheSameInAllPasses) {
   const std::span<const std::uint32_t> words = k_populate_screen_space_comp;
-  expect_precise(words, {"eye_relative", "ordered_dot", "make_edge", "less_half_turns", "sine_of_quarter",
+  expect_precise(words, {"relative_to", "ordered_dot", "make_edge", "less_half_turns", "sine_of_quarter",
                          "sine", "cosine", "alpha_of_cell", "row_angle", "row_ray"});
   // What calls them adds nothing of its own.
   const std::map<std::string, Arithmetic> functions = arithmetic_of(words);
+  EXPECT_FALSE(functions.contains("eye_relative"));
   EXPECT_FALSE(functions.contains("corner"));
   EXPECT_FALSE(functions.contains("is_left"));
 }
