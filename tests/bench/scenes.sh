@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The figures of README.md and docs/figures.md:
-# `tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|lights|curves|cost|leaks|causes|path [OUT]`.
+# `tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|quadrature|lights|curves|cost|leaks|causes|path [OUT]`.
 # The paper's Tables 2 to 4 and the bandwidth: build/release/tests/bench/airlight_tables, after ./test.
 #
 # truth     the exact reference against itself refined, against rays, 256×256 and 512×512 pixels
@@ -11,6 +11,7 @@
 # sun-curves  the error as each count of the grid and the shadow map doubles
 # far       lamps 10² to 10⁵ m from the eye through the window, 512×512: fog as thin as lets their light arrive
 # lights    1, 2, 4 and 8 lamps that share the power of one, 512×512: time, error and the stages of each
+# quadrature  table, quadrature and riemann, 512×512 and 1024×1024, with a texture, and under a lamp above a layer
 # curves    the error as each count of the grid doubles, the others at their defaults
 # cost      every population × integral × ranges, 1024×1024 pixels: time, error and stages (the paper's Table 1)
 # leaks     the three populations on closed and open models, 512×512 pixels
@@ -120,6 +121,20 @@ case ${1:-} in
       done
     done
     ;;
+  quadrature)
+    integrals=vsv:integral=quadrature,vsv:integral=riemann
+    ./run render cornell --size 512x256 -o "$out/texture.exr" --quiet
+    view[layer]="window --fog-top 4"
+    for size in 512x512 1024x1024; do
+      for scene in window fence maple; do
+        compare "$scene" --size $size --surface none -o "$out/quadrature_${size}_$scene" --frames 3 --quiet \
+          --volume "vsv:integral=table,$integrals"
+        compare "$scene" --size $size --surface none -o "$out/quadrature_${size}_textured_$scene" --frames 1 --quiet \
+          --light-texture "$out/texture.exr" --volume "$integrals"
+      done
+      compare layer --size $size --surface none -o "$out/quadrature_${size}_layer" --frames 3 --quiet --volume "$integrals"
+    done
+    ;;
   curves)
     grids=vsv
     for n in 64 128 256; do grids+=,vsv:alpha=$n; done
@@ -174,7 +189,7 @@ case ${1:-} in
     done
     ;;
   *)
-    echo "usage: tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|lights|curves|cost|leaks|causes|path [OUT]" >&2
+    echo "usage: tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|quadrature|lights|curves|cost|leaks|causes|path [OUT]" >&2
     exit 2
     ;;
 esac
