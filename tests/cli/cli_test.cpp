@@ -562,7 +562,7 @@ class TexturedLight : public CommandLine {
 TEST_F(TexturedLight, ColoursTheImageInEveryMethodByDefault) {
   const Image image = render({"--light-texture", "light.exr"});
   EXPECT_EQ(image.metadata.at("airlight.light-texture"), "light.exr");
-  EXPECT_EQ(image.metadata.at("airlight.integral"), "riemann");
+  EXPECT_EQ(image.metadata.at("airlight.integral"), "quadrature");
   EXPECT_EQ(mean(image.channels.at("B")), 0.0);
   // The light hangs in the middle of the room, and the camera looks along −Z: +X is to the right.
   for (const char* channel : {"", "airlight."}) {

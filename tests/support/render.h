@@ -21,7 +21,7 @@ namespace airlight::tests {
 /// What an image by voxelized shadow volumes depends on, beside the view.
 struct VsvSettings {
   epipolar::Resolution resolution{256, 1024, 512};
-  media::VsvIntegral integral = media::VsvIntegral::table;
+  media::VsvIntegral integral = media::VsvIntegral::automatic;
   int shadow_map = 1024;
   std::optional<epipolar::Scan> scan = {};
   epipolar::Populate populate = epipolar::Populate::shadow_map;
