@@ -112,5 +112,23 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Accuracy,
                                          Agreement{"sphere", 0.003, 0.01},
                                          Agreement{"half-space", 0.002, 0.005}));
 
+TEST(LitRuns, GoOnBeyondTheLastCellOfAHalfPlane) {
+  // A screen under open sky: half-planes that meet it have no cells beyond its edge, and their last ones are
+  // dark.
+  scene::Geometry screen;
+  tests::add_quad(screen, {-0.5f, -0.5f, -1}, {1, 0, 0}, {0, 1, 0.2f});
+  scene::View view;
+  view.camera.eye = {0.3, 0.4, 3};
+  view.camera.target = {0, 0, -1};
+  view.lights[0] = scene::point_light("", {0.2, 0.1, -3}, {3, 2, 1});
+  view.size = {48, 48};
+  const tests::Truth truth = tests::trace(screen, view);
+  for (const media::VsvIntegral integral : {media::VsvIntegral::table, media::VsvIntegral::quadrature}) {
+    const auto error = tests::error_of(tests::render_vsv(screen, view, {.integral = integral}), truth);
+    EXPECT_LT(error.rrmse, 3e-3) << tests::name_of(integral);
+    RecordProperty(tests::name_of(integral), std::to_string(error.rrmse));
+  }
+}
+
 }  // namespace
 }  // namespace airlight
