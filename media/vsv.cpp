@@ -47,8 +47,8 @@ std::uint32_t reach_of(const scene::Light& light) {
 }
 
 /// Rows and columns of the table of a light texture's colours (shaders/media/vsv_colour.glsl): 16 rows and a
-/// column for each of the texture's. Half the rows err by 0.6 % of what a lamp a few texels wide sends past
-/// the fence of docs/figures.md, these by 0.07 %; the columns matter less. 64 MiB at most.
+/// column for each of the texture's. Half the rows err by 0.16 % of what a light a few texels wide sends past
+/// the fence of docs/figures.md, these by 0.06 %; the columns matter less. 64 MiB at most.
 std::array<std::uint32_t, 2> colours_of(const scene::Light& light) {
   if (!light.texture) return {0, 0};
   const auto height = static_cast<std::uint32_t>(light.texture->size().y);
