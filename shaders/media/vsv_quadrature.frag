@@ -124,8 +124,9 @@ void main() {
       } else {
         float detour = path_length(space, in_plane.complement, from) - space.distance;  // what it is longer than at the eye
         if (lightest * detour > k_faint) {
+          // Nothing more counts. No break: of loops in loops that are left so, Mesa's lavapipe crashes.
           runs.has_next = false;
-          break;
+          to = from;
         }
         // A channel is followed as long as its light counts beside its own.
         growth = depth_growth(space, steepest_channel(fog, k_dark / k_faint * detour), in_plane.complement, from);

@@ -113,7 +113,7 @@ TEST_P(Drivers, ShowTheSameImages) {
   const std::string populations[] = {"shadow-map", "conservative", "screen-space"};
   std::string volumes, surfaces;
   for (const std::string& populate : populations) {
-    for (const char* integral : {"table", "riemann", "factored"}) {
+    for (const char* integral : {"table", "quadrature", "riemann", "factored"}) {
       volumes += fmt::format("{}vsv:populate={}:integral={}", volumes.empty() ? "" : ",", populate, integral);
     }
     surfaces += fmt::format("{}vsv:populate={}", surfaces.empty() ? "" : ",", populate);
@@ -152,7 +152,7 @@ TEST_P(Drivers, ShowTheSameImages) {
     fs::remove_all(folder_ / "default");
     fs::remove_all(folder_ / "zink");
   }
-  EXPECT_EQ(images, 12);
+  EXPECT_EQ(images, 15);
   std::cout << fmt::format(
       "Two drivers, {}: the airlight of {} images differs by at most {:.2g}, in {:.2g} % of the pixels by "
       "more than "
