@@ -82,6 +82,26 @@ Clusters make_clusters(const scene::Geometry& geometry) {
   return result;
 }
 
+std::vector<glm::dvec3> sides_of_cone(std::span<const glm::dvec3> directions, double rounding) {
+  std::vector<glm::dvec3> sides;
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    for (std::size_t j = i + 1; j < directions.size(); ++j) {
+      const glm::dvec3 across = glm::cross(directions[i], directions[j]);
+      // Two that are all but parallel span no plane; what they would bound, others do.
+      if (glm::length(across) < 1e-9) continue;
+      const glm::dvec3 normal = glm::normalize(across);
+      double least = 0.0, most = 0.0;
+      for (const glm::dvec3& direction : directions) {
+        least = std::min(least, glm::dot(normal, direction));
+        most = std::max(most, glm::dot(normal, direction));
+      }
+      if (least >= -rounding) sides.push_back(normal);
+      if (most <= rounding) sides.push_back(-normal);
+    }
+  }
+  return sides;
+}
+
 bool may_touch(glm::dvec3 apex, std::span<const glm::dvec3> inward, const scene::Box& box) {
   const glm::dvec3 centre = (glm::dvec3(box.lower) + glm::dvec3(box.upper)) * 0.5 - apex;
   const glm::dvec3 half = (glm::dvec3(box.upper) - glm::dvec3(box.lower)) * 0.5;

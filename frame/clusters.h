@@ -34,6 +34,12 @@ struct Pyramid {
   double half_width, half_height;  ///< slopes of its sides
 };
 
+/// The half-spaces through the origin, by their inward unit normals, that bound the cone of the sums of
+/// multiples ≥ 0 of some unit directions: the planes through two of them that leave all others on one side.
+/// None for a cone that is all of space.
+/// @param rounding how far a direction may lie beyond such a plane
+std::vector<glm::dvec3> sides_of_cone(std::span<const glm::dvec3> directions, double rounding);
+
 /// Whether a box may touch the region that half-spaces bound whose planes meet in a point: never wrongly
 /// "no".
 /// @param apex   that point, world space

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <span>
 #include <vector>
+
+#include "frame/clusters.h"
 
 namespace airlight::frame {
 namespace {
@@ -15,11 +16,11 @@ namespace {
 constexpr double k_angle_margin = 1e-3;  // [rad]
 constexpr double k_range_margin = 1e-4;  // of the range and of the distance to the eye
 
-/// What an image shows: the sums of multiples ≥ 0 of these directions, from the eye.
-using Pyramid = std::array<glm::dvec3, 4>;
+/// What an image shows: the sums of multiples ≥ 0 of these unit directions, from the eye.
+using Corners = std::array<glm::dvec3, 4>;
 
 /// Distance of a point, relative to the eye, from what an image shows.
-double distance_from(const Pyramid& seen, glm::dvec3 point) {
+double distance_from(const Corners& seen, glm::dvec3 point) {
   double nearest = glm::length(point);  // of the eye
   bool is_inside = true;
   const glm::dvec3 middle = seen[0] + seen[1] + seen[2] + seen[3];
@@ -40,46 +41,30 @@ double distance_from(const Pyramid& seen, glm::dvec3 point) {
   return is_inside ? 0.0 : nearest;
 }
 
-/// Whether the point is outside of the convex cone of the sums of multiples ≥ 0 of some unit directions:
-/// never wrongly "yes". A side of such a cone is a plane through two of its directions.
-bool is_outside(std::span<const glm::dvec3> cone, glm::dvec3 point) {
-  constexpr double k_rounding = 1e-14, k_margin = 1e-9;
-  for (const glm::dvec3& first : cone) {
-    for (const glm::dvec3& second : cone) {
-      glm::dvec3 inwards = glm::cross(first, second);
-      const double length = glm::length(inwards);
-      if (length < 1e-9) continue;
-      inwards /= length;
-      if (glm::dot(inwards, point) > -k_margin * glm::length(point)) continue;
-      const bool is_side = std::all_of(cone.begin(), cone.end(), [&](const glm::dvec3& direction) {
-        return glm::dot(inwards, direction) >= -k_rounding;
-      });
-      if (is_side) return true;
-    }
-  }
-  return false;
-}
-
 /// Whether a spot shines beside what an image shows: no point of the one is a point of the other. Points are
 /// eye + v and light + w, with v of the pyramid and w of the spot's cone: there is one in both where eye −
 /// light is a w − v.
-bool is_apart(const scene::Cone& spot, const Pyramid& seen, glm::dvec3 eye_from_light) {
+bool is_apart(const scene::Cone& spot, const Corners& seen, glm::dvec3 eye_from_light) {
   // A pyramid of many sides about the cone.
   constexpr int k_sides = 16;
   const double angle = std::min(spot.outer + k_angle_margin, 0.5 * std::numbers::pi);
   const double out = std::sin(angle) / std::cos(std::numbers::pi / k_sides);
-  const glm::dvec3 axis = glm::normalize(spot.axis);
-  const glm::dvec3 u = glm::normalize(
-      glm::cross(axis, std::abs(axis.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0)));
-  const glm::dvec3 v = glm::cross(axis, u);
-  std::vector<glm::dvec3> difference = {axis};
+  const glm::dvec3 u = glm::normalize(glm::cross(
+      spot.axis, std::abs(spot.axis.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0)));
+  const glm::dvec3 v = glm::cross(spot.axis, u);
+  std::vector<glm::dvec3> difference = {spot.axis};
   for (int i = 0; i < k_sides; ++i) {
     const double around = 2.0 * std::numbers::pi * i / k_sides;
     difference.push_back(
-        glm::normalize(std::cos(angle) * axis + out * (std::cos(around) * u + std::sin(around) * v)));
+        glm::normalize(std::cos(angle) * spot.axis + out * (std::cos(around) * u + std::sin(around) * v)));
   }
   for (const glm::dvec3& edge : seen) difference.push_back(-edge);
-  return is_outside(difference, eye_from_light);
+  // Never wrongly "yes".
+  constexpr double k_rounding = 1e-14, k_margin = 1e-9;
+  const std::vector<glm::dvec3> sides = sides_of_cone(difference, k_rounding);
+  return std::any_of(sides.begin(), sides.end(), [&](const glm::dvec3& inwards) {
+    return glm::dot(inwards, eye_from_light) <= -k_margin * glm::length(eye_from_light);
+  });
 }
 
 }  // namespace
@@ -103,7 +88,7 @@ bool may_reach(const scene::View& view, const scene::Light& light) {
   if (scene::is_sun(light) || (!light.range && !light.cone)) return true;
 
   const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
-  Pyramid seen = scene::corner_rays(camera);
+  Corners seen = scene::corner_rays(camera);
   for (glm::dvec3& edge : seen) edge = glm::normalize(edge);
   const glm::dvec3 from_eye = light.position - camera.eye;
   if (light.range &&

@@ -15,29 +15,6 @@ namespace {
 /// A convex polygon.
 using Polygon = std::vector<glm::dvec3>;
 
-/// The half-spaces through the origin that bound the cone of these directions: the planes through two of them
-/// that leave all others on one side. None for a cone that is all of space.
-std::vector<glm::dvec3> sides_of_cone(const std::array<glm::dvec3, 5>& directions) {
-  std::vector<glm::dvec3> sides;
-  for (std::size_t i = 0; i < directions.size(); ++i) {
-    for (std::size_t j = i + 1; j < directions.size(); ++j) {
-      const glm::dvec3 across = glm::cross(directions[i], directions[j]);
-      // Two that are all but parallel span no plane; what they would bound, others do.
-      if (glm::length(across) < 1e-9) continue;
-      const glm::dvec3 normal = glm::normalize(across);
-      double least = 0.0, most = 0.0;
-      for (const glm::dvec3& direction : directions) {
-        least = std::min(least, glm::dot(normal, direction));
-        most = std::max(most, glm::dot(normal, direction));
-      }
-      constexpr double k_rounding = 1e-12;
-      if (least >= -k_rounding) sides.push_back(normal);
-      if (most <= k_rounding) sides.push_back(-normal);
-    }
-  }
-  return sides;
-}
-
 /// What of the polygon lies in the half-space through the origin.
 Polygon cut(const Polygon& polygon, const glm::dvec3& inward) {
   Polygon inside;
@@ -95,7 +72,8 @@ std::optional<ShadowPlane> fit_shadow_plane(const scene::Light& light, const sce
   std::transform(corners.begin(), corners.end(), directions.begin(),
                  [](const glm::dvec3& corner) { return glm::normalize(corner); });
   directions[4] = l;
-  plane.half_spaces = sides_of_cone(directions);
+  constexpr double k_rounding = 1e-12;
+  plane.half_spaces = sides_of_cone(directions, k_rounding);
 
   // What can shade what is seen, on the map.
   const glm::dvec3 across = camera.right - glm::dot(camera.right, l) * l;
