@@ -84,17 +84,20 @@ FUNCTION float steepest_channel(IN(MediumBlock) medium, float path) {
              sigma.z * path < k_dark ? sigma.z : least);
 }
 
+// How far along ψ = π − α − φ a lobe, which is 1 − |g| wide, changes little: that, or the distance from its tip.
+FUNCTION float scale_of_lobe(IN(MediumBlock) medium, float psi) {
+  float from_tip = medium.g > 0.0f ? k_pi - psi : psi;
+  float width = 1.0f - abs(medium.g);
+  return sqrt(from_tip * from_tip + width * width);
+}
+
 // How far outwards from φ the two-point rule follows the integrand, which is smooth on every scale but three: the optical depth
 // changes, by `growth` along φ; ψ = π − α − φ falls to 0, where it is infinite; and a lobe is 1 − |g| wide. What lies within
 // k_least_psi of ψ = 0, or a hundredth of a ray, is one step.
 FUNCTION Angle smooth_length_by_growth(IN(MediumBlock) medium, uint kind, Angle complement, Angle phi, float growth) {
   float psi = max(float(complement - phi), 1e-8f);
   float size = min(0.25f * psi, 0.5f / max(growth, 1e-9f));
-  if (has_lobe(kind)) {
-    float from_tip = medium.g > 0.0f ? k_pi - psi : psi;
-    float width = 1.0f - abs(medium.g);
-    size = min(size, 0.2f * sqrt(from_tip * from_tip + width * width));
-  }
+  if (has_lobe(kind)) size = min(size, 0.2f * scale_of_lobe(medium, psi));
   return Angle(psi < min(k_least_psi, 0.01f * float(complement)) ? psi : size);
 }
 
@@ -110,11 +113,7 @@ CONST float k_longest_panel = 1.2f;  // of Rayleigh's function, which turns with
 FUNCTION Angle panel_length_by_growth(IN(MediumBlock) medium, uint kind, Angle complement, Angle phi, float growth) {
   float psi = max(float(complement - phi), 1e-8f);
   float size = min(min(k_panel_psi * psi, psi / (1.0f + psi * growth / k_panel_depth)), k_longest_panel);
-  if (has_lobe(kind)) {
-    float from_tip = medium.g > 0.0f ? k_pi - psi : psi;
-    float width = 1.0f - abs(medium.g);
-    size = min(size, k_panel_lobe * sqrt(from_tip * from_tip + width * width));
-  }
+  if (has_lobe(kind)) size = min(size, k_panel_lobe * scale_of_lobe(medium, psi));
   return Angle(psi < min(k_least_psi, 0.01f * float(complement)) ? psi : size);
 }
 
@@ -126,11 +125,7 @@ FUNCTION Angle straight_length_by_growth(IN(MediumBlock) medium, uint kind, Angl
   float psi = max(float(complement - phi), 1e-8f);
   float size = k_straight / sqrt(growth * growth + 2.0f * growth / psi + 1e-12f);
   if (kind == k_rayleigh || kind == k_hoffman_preetham) size = min(size, k_straight);
-  if (has_lobe(kind)) {
-    float from_tip = medium.g > 0.0f ? k_pi - psi : psi;
-    float width = 1.0f - abs(medium.g);
-    size = min(size, 0.5f * k_straight * sqrt(from_tip * from_tip + width * width));
-  }
+  if (has_lobe(kind)) size = min(size, 0.5f * k_straight * scale_of_lobe(medium, psi));
   return Angle(size);
 }
 

@@ -96,12 +96,11 @@ vec3 integrate_coloured_panel(LayerRay ray, MediumBlock fog, float from, float t
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   VsvRay ray = vsv_ray(pixel);
-  vec3 outward = dot(ray.direction, space.u) * space.u + dot(ray.direction, space.f) * space.f;
-  LayerRay in_plane = LayerRay(ray.direction, unit_or(outward, space.u), ray.alpha, alpha_complement(ray.angle), ray.entry);
+  LayerRay view = in_plane(ray);
   MediumBlock fog = medium;
   if (k_channels == 1u) fog.sigma_t = fog.sigma_t.xxx;  // one exponential instead of three
   float lightest = min(fog.sigma_t.x, min(fog.sigma_t.y, fog.sigma_t.z));
-  LitPart part = part_in_reach(space, light, k_reach, in_plane, ray.phi_start, ray.phi_end);
+  LitPart part = part_in_reach(space, light, k_reach, view, ray.phi_start, ray.phi_end);
   ColourRows rows;
   if (k_light_textured != 0u) rows = colour_rows(theta_of(space, ray.direction));
 
@@ -118,28 +117,28 @@ void main() {
       float growth;
       float longest = k_pi;
       if (k_layer == k_layer_entered) {
-        LayerScales scales = layer_scales(space, light, fog, in_plane, from);
+        LayerScales scales = layer_scales(space, light, fog, view, from);
         growth = scales.growth;
         longest = k_panel_psi * scales.to_level;
       } else {
-        float detour = path_length(space, in_plane.complement, from) - space.distance;  // what it is longer than at the eye
+        float detour = path_length(space, view.complement, from) - space.distance;  // what it is longer than at the eye
         if (lightest * detour > k_faint) {
           // Nothing more counts. No break: of loops in loops that are left so, Mesa's lavapipe crashes.
           runs.has_next = false;
           to = from;
         }
         // A channel is followed as long as its light counts beside its own.
-        growth = depth_growth(space, steepest_channel(fog, k_dark / k_faint * detour), in_plane.complement, from);
+        growth = depth_growth(space, steepest_channel(fog, k_dark / k_faint * detour), view.complement, from);
       }
-      longest = min(longest, panel_length_by_growth(fog, k_phase, in_plane.complement, from, growth));
+      longest = min(longest, panel_length_by_growth(fog, k_phase, view.complement, from, growth));
       if ((k_reach & k_reach_of_range) != 0u)
-        longest = min(longest, min(k_from_far_end * (in_plane.alpha + from), k_to_far_end * (in_plane.complement - from)));
+        longest = min(longest, min(k_from_far_end * (view.alpha + from), k_to_far_end * (view.complement - from)));
       bool is_on_edge = (k_reach & k_reach_of_cone) != 0u && (from < part.inner_from || from >= part.inner_to);
       if (is_on_edge) longest = min(longest, k_longest_on_edge);
       if (k_light_textured != 0u) {
         longest *= k_straight;
         if (is_on_edge) longest = min(longest, k_on_textured_edge * (part.to - part.from));
-        longest = min(longest, straight_length_by_growth(fog, k_phase, in_plane.complement, from, growth));
+        longest = min(longest, straight_length_by_growth(fog, k_phase, view.complement, from, growth));
       }
       float next = min(from + longest, to);
       if ((k_reach & k_reach_of_cone) != 0u) {
@@ -150,10 +149,10 @@ void main() {
       uint nodes = is_on_edge || length > k_short * longest ? 4u : length > k_shortest * longest ? 2u : 1u;
       if (k_light_textured != 0u) {
         vec4 colours = colours_to(rows, next);
-        sum += integrate_coloured_panel(in_plane, fog, from, next, colours - colours_to_from);
+        sum += integrate_coloured_panel(view, fog, from, next, colours - colours_to_from);
         colours_to_from = colours;
       } else {
-        sum += integrate_panel(in_plane, fog, from, next, nodes);
+        sum += integrate_panel(view, fog, from, next, nodes);
       }
       from = next;
     }

@@ -118,6 +118,12 @@ VsvRay vsv_ray(ivec2 pixel) {
   return ray;
 }
 
+// The same in its half-plane.
+LayerRay in_plane(VsvRay ray) {
+  vec3 outward = dot(ray.direction, space.u) * space.u + dot(ray.direction, space.f) * space.f;
+  return LayerRay(ray.direction, unit_or(outward, space.u), ray.alpha, alpha_complement(ray.angle), ray.entry);
+}
+
 // Whether the grid ends before the ray, where all is lit; by more than the rounding of either's end.
 bool goes_beyond(VsvRay ray) { return ray.end > float(k_phi_count) + 0.05; }
 

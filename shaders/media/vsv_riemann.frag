@@ -53,10 +53,7 @@ vec3 integrate_lit(LayerRay ray, float from, float to) {
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   VsvRay ray = vsv_ray(pixel);
-  float complement = alpha_complement(ray.angle);
-  vec3 outward = dot(ray.direction, space.u) * space.u + dot(ray.direction, space.f) * space.f;
-  outward = unit_or(outward, space.u);
-  LayerRay in_layer = LayerRay(ray.direction, outward, ray.alpha, complement, ray.entry);
+  LayerRay view = in_plane(ray);
   vec3 sum = vec3(0.0);
   for (uint texel = 0u; texel < texel_count(ray); ++texel) {
     uvec4 lit = ~seen_bits(ray, texel) & before_end(ray, texel);
@@ -70,22 +67,22 @@ void main() {
         to = min(to, ray.phi_end);
         phi = 0.5 * (from + to);
         if (k_rough != 0u) {
-          sum += integrate_lit(in_layer, from, to);
+          sum += integrate_lit(view, from, to);
         } else if (from < to) {
-          sum += (to - from) * layer_integrand(space, light, medium, k_phase, in_layer, phi) * colour_at(in_layer, phi);
+          sum += (to - from) * layer_integrand(space, light, medium, k_phase, view, phi) * colour_at(view, phi);
         }
       } else if (k_rough != 0u) {
         to = min(to, ray.phi_end);
-        sum += integrate_run(space, medium, k_phase, complement, from, to) * colour_at(in_layer, phi);
+        sum += integrate_run(space, medium, k_phase, view.complement, from, to) * colour_at(view, phi);
       } else if (phi < ray.phi_end) {
-        sum += (to - from) * airlight_integrand(space, medium, k_phase, complement, phi) * colour_at(in_layer, phi);
+        sum += (to - from) * airlight_integrand(space, medium, k_phase, view.complement, phi) * colour_at(view, phi);
       }
     }
   }
   // Before the half-plane's cells, and beyond them, all is lit.
   float first = min(phi_of_cell(ray.cells, 0.0), ray.phi_end);
   float last = min(phi_of_cell(ray.cells, float(k_phi_count)), ray.phi_end);
-  sum += integrate_lit(in_layer, ray.phi_start, first) + integrate_lit(in_layer, max(last, ray.phi_start), goes_beyond(ray) ? ray.phi_end : last);
+  sum += integrate_lit(view, ray.phi_start, first) + integrate_lit(view, max(last, ray.phi_start), goes_beyond(ray) ? ray.phi_end : last);
   vec3 radiance = airlight_scale(space, light, medium, ray.angle.sine) * sum;
   airlight = vec4(radiance, 1.0);
 }
