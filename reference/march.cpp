@@ -181,7 +181,7 @@ AirlightImage Reference::march_to_point(int samples, RayMode mode, const Progres
   const scene::Medium& medium = state.view.medium;
   const glm::dvec3 sigma_t = glm::dvec3(medium.sigma_s) + glm::dvec3(medium.sigma_a);
   const bool grey = sigma_t.r == sigma_t.g && sigma_t.g == sigma_t.b && !state.light_texture;
-  const bool is_uneven = state.light_texture || state.light.cone || state.light.range;
+  const bool is_uneven = state.light_texture || LightShape(state.light).is_shaped();
 
   AirlightImage image;
   image.radiance.resize(state.pixels());

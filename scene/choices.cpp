@@ -17,27 +17,22 @@ namespace {
 constexpr std::string_view k_all_lights = "all";
 
 template <typename Things>
-std::string list(const Things& things) {
-  std::string text;
-  for (std::size_t i = 0; i < things.size(); ++i)
-    text += fmt::format("{}'{}' ({})", i == 0 ? "" : ", ", printable(things[i].name), i);
-  return text;
+std::vector<std::string> names_of(const Things& things) {
+  std::vector<std::string> names;
+  for (const auto& thing : things) names.push_back(thing.name);
+  return names;
 }
 
 /// The place of the thing of that name or number. @throws the choices' error, which names the others
 template <typename Thing>
 std::size_t find(const Choices& choices, const FieldInfo& choice, const std::vector<Thing>& things) {
   const auto& name = std::get<std::string>(*choices.get(choice));
-  std::optional<std::size_t> of_number;
-  for (std::size_t i = 0; i < things.size(); ++i) {
-    if (things[i].name == name) return i;
-    // A name is preferred to a number, which is written as it is listed.
-    if (fmt::format("{}", i) == name) of_number = i;
-  }
-  if (!of_number)
+  const std::vector<std::string> names = names_of(things);
+  const auto found = find_named(names, name);
+  if (!found)
     throw choices.error(choice, fmt::format("the scene has no '{}'", printable(name)),
-                        things.empty() ? "it has none" : "it has " + list(things));
-  return *of_number;
+                        names.empty() ? "it has none" : "it has " + list_of_names(names));
+  return *found;
 }
 
 void choose_camera(const Choices& choices, std::vector<Camera>& cameras, const Geometry& geometry) {
@@ -124,7 +119,7 @@ std::vector<Light> choose_light(const Choices& choices, const std::vector<Light>
           fmt::format("place one by {} and {}, or by {} and {}", choices.spell(position),
                       choices.spell(intensity), choices.spell(sun), choices.spell(irradiance)));
     if (on.size() > 1)
-      throw choices.error(given, fmt::format("the scene has several lights, {}", list(on)),
+      throw choices.error(given, fmt::format("the scene has several lights, {}", list_of_names(names_of(on))),
                           fmt::format("say which one is meant by {}", choices.spell(light_choice())));
     chosen.assign(on.begin(), on.end());
   }
@@ -171,6 +166,22 @@ void Choices::add(const FieldInfo& field, FieldValue value) {
 const FieldValue* Choices::get(const FieldInfo& field) const {
   const auto found = values_.find(field.name);
   return found == values_.end() ? nullptr : &found->second;
+}
+
+std::optional<std::size_t> find_named(std::span<const std::string> names, const std::string& text) {
+  std::optional<std::size_t> of_number;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] == text) return i;
+    if (fmt::format("{}", i) == text) of_number = i;
+  }
+  return of_number;
+}
+
+std::string list_of_names(std::span<const std::string> names) {
+  std::string list;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    list += fmt::format("{}'{}' ({})", i == 0 ? "" : ", ", printable(names[i]), i);
+  return list;
 }
 
 bool is_of_light(const FieldInfo& field) {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -45,6 +47,13 @@ void choose(const Choices& choices, Thing& thing) {
       throw choices.error(field, wrong->problem, wrong->remedy);
   }
 }
+
+/// Of things that have these names, the place of the one that is called so or, if none is, has that number; a
+/// number is written as `list_of_names` lists it.
+std::optional<std::size_t> find_named(std::span<const std::string> names, const std::string& text);
+
+/// "'a' (0), 'b' (1)"
+std::string list_of_names(std::span<const std::string> names);
 
 /// Whether it is a field of a light, or chooses one.
 bool is_of_light(const FieldInfo& field);

@@ -5,11 +5,15 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "scene/catmull_rom.h"
+#include "scene/choices.h"
 #include "scene/import_internal.h"
 #include "scene/toml_table.h"
 
@@ -104,26 +108,27 @@ class Track {
   std::map<std::string_view, double> last_times_;  ///< by group
 };
 
-std::string name_of(const std::vector<Light>& lights, std::size_t i) {
-  return lights[i].name.empty() ? fmt::format("light{}", i) : lights[i].name;
+/// Of lights in a view that no one has named, their numbers.
+std::vector<std::string> names_of(const std::vector<Light>& lights) {
+  std::vector<std::string> names;
+  for (const Light& light : lights)
+    names.push_back(light.name.empty() ? fmt::format("light{}", names.size()) : light.name);
+  return names;
 }
 
 /// Which of the view's lights a key is of.
-std::size_t light_of(Table& key, const std::vector<Light>& lights) {
+std::size_t light_of(Table& key, std::span<const std::string> names) {
   const auto name = key.text("name");
-  std::string list;
-  std::optional<std::size_t> of_number;
-  for (std::size_t i = 0; i < lights.size(); ++i) {
-    // A name is preferred to a number.
-    if (name && *name == name_of(lights, i)) return i;
-    if (name && *name == fmt::format("{}", i)) of_number = i;
-    list += fmt::format("{}'{}' ({})", i == 0 ? "" : ", ", printable(name_of(lights, i)), i);
+  if (!name) {
+    if (names.size() > 1)
+      throw key.error("name", "the view has several lights", "name one of " + list_of_names(names));
+    return 0;
   }
-  if (of_number) return *of_number;
-  if (name)
-    throw key.error("name", fmt::format("the view has no light '{}'", printable(*name)), "it has " + list);
-  if (lights.size() > 1) throw key.error("name", "the view has several lights", "name one of " + list);
-  return 0;
+  const auto found = find_named(names, *name);
+  if (!found)
+    throw key.error("name", fmt::format("the view has no light '{}'", printable(*name)),
+                    "it has " + list_of_names(names));
+  return *found;
 }
 
 /// The tables of a light's keys: the groups of its fields.
@@ -161,10 +166,11 @@ Path load_path(const std::filesystem::path& file, const View& view) {
   // The keys.
   Track<Camera> of_camera;
   std::vector<Track<Light>> of_lights(view.lights.size());
+  const std::vector<std::string> names = names_of(view.lights);
   for (Table& key : root.tables("camera")) of_camera.add(key, "camera", path.seconds, view.camera);
   for (const std::string_view group : light_groups()) {
     for (Table& key : root.tables(group)) {
-      const std::size_t light = light_of(key, view.lights);
+      const std::size_t light = light_of(key, names);
       of_lights[light].add(key, group, path.seconds, view.lights[light]);
     }
   }
@@ -180,7 +186,7 @@ Path load_path(const std::filesystem::path& file, const View& view) {
     if (const auto wrong = of_camera.move(moved.camera, time)) throw error("camera." + *wrong);
     for (std::size_t light = 0; light < of_lights.size(); ++light)
       if (const auto wrong = of_lights[light].move(moved.lights[light], time))
-        throw error(fmt::format("{}, {}", name_of(view.lights, light), *wrong));
+        throw error(fmt::format("{}, {}", names[light], *wrong));
     try {
       validate(moved);
     } catch (const Error& problem) {
@@ -191,7 +197,7 @@ Path load_path(const std::filesystem::path& file, const View& view) {
     of_lights[light].for_each_below_0([&](const FieldInfo& field, int count) {
       path.warnings.push_back(
           fmt::format("{}: the curve of {}'s {} goes below 0: it is 0 there, in frames: {}", file.string(),
-                      name_of(view.lights, light), field.key(), count));
+                      names[light], field.key(), count));
     });
   }
   return path;
