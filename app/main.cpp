@@ -59,8 +59,7 @@ std::vector<std::pair<std::string, std::string>> read_words(const CLI::App& app,
   const std::string help = fmt::format("see airlight {} --help", argv[1]);
   int names_left = command.get_option_no_throw("SCENE") ? 1 : 0;
   std::vector<std::pair<std::string, std::string>> given;
-  std::set<std::string> seen;
-  int lights = 0;
+  std::set<const CLI::Option*> seen;
   for (int i = 2; i < argc; ++i) {
     const std::string word = argv[i];
     const bool is_long = word.starts_with("--");
@@ -72,11 +71,10 @@ std::vector<std::pair<std::string, std::string>> read_words(const CLI::App& app,
     const std::string name = is_long ? word.substr(0, word.find('=')) : word.substr(0, 2);
     const CLI::Option* option = command.get_option_no_throw(name);
     if (!option) throw Error(ExitCode::usage, name, fmt::format("{} has no such option", argv[1]), help);
-    // Each light has its own.
+    // Each light has its own, as whoever tells lights apart sees to.
     const scene::FieldInfo* field = is_long ? scene::find_field(name.substr(2)) : nullptr;
     const bool is_of_light = field && scene::is_of_light(*field);
-    if (is_of_light && scene::names_light(*field)) ++lights;
-    if (!seen.insert(is_of_light ? fmt::format("{} {}", name, lights) : name).second)
+    if (!is_of_light && !seen.insert(option).second)
       throw Error(ExitCode::usage, name, "it is given twice", "give it once");
     const bool takes_value = option->get_items_expected_max() > 0, has_value = word.size() > name.size();
     if (!takes_value && has_value) throw Error(ExitCode::usage, word, fmt::format("{} takes no value", name));
