@@ -120,10 +120,10 @@ Measurer::TimedFrame Measurer::render_timed(frame::SurfaceShadow& shadow, frame:
   for (std::size_t light = 0; light < view_->lights.size(); ++light)
     timed.light_stages_ms.push_back(timer.milliseconds(light));
   // An image that was kept costs what it cost when it was traced.
-  timed.ms += timed.work.kept_airlight_ms + timed.work.kept_surface_ms;
-  if (!with_stages) return timed;
-  for (const auto& [light, stages] : timed.work.kept_stages_ms) {
+  for (const auto& [light, stages] : timed.work.kept_ms) {
     for (const auto& [stage, ms] : stages) {
+      timed.ms += ms;
+      if (!with_stages) continue;
       timed.stages_ms[stage] += ms;
       timed.light_stages_ms[light][stage] += ms;
     }

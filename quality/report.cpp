@@ -194,6 +194,16 @@ std::string chart(const Comparison& comparison, const char* title, const Value& 
       k_top + k_height + 15.0, comparison.path->frames.size() - 1, curves, escape(title), legend);
 }
 
+std::string rows_of(const std::vector<std::vector<std::string>>& rows) {
+  std::string html;
+  for (const std::vector<std::string>& row : rows) {
+    html += "<tr>";
+    for (const std::string& text : row) html += cell(text);
+    html += "</tr>\n";
+  }
+  return html;
+}
+
 /// Time and error along the path.
 std::string path_section(const Comparison& comparison) {
   const ComparedPath& path = *comparison.path;
@@ -209,28 +219,12 @@ std::string path_section(const Comparison& comparison) {
       "</div>\n<div class=\"scroll\"><table><thead><tr><th class=\"name\">volume</th><th "
       "class=\"name\">surface</th><th>frame [ms]</th><th>worst</th><th>rrmse [%]</th><th>worst</th>"
       "<th>same-surface rrmse [%]</th><th>worst</th><th>worst frame</th></tr></thead><tbody>\n";
-  for (const Run& run : comparison.runs) {
-    const PathSpreads spreads = path_spreads(run);
-    html += "<tr>" + cell(run.volume) + cell(run.surface) + cell(fmt::format("{:.2f}", spreads.ms.mean)) +
-            cell(fmt::format("{:.2f}", spreads.ms.worst)) +
-            cell(error_text(spreads.rrmse.mean, comparison.truth.bound)) +
-            cell(error_text(spreads.rrmse.worst, comparison.truth.bound)) +
-            cell(error_text(spreads.same_surface_rrmse.mean, comparison.truth.bound)) +
-            cell(error_text(spreads.same_surface_rrmse.worst, comparison.truth.bound)) +
-            cell(fmt::format("{}", run.worst_frame)) + "</tr>\n";
-  }
+  html += rows_of(spread_rows(comparison));
   html +=
       "</tbody></table></div>\n<div class=\"scroll\"><table><thead><tr><th class=\"name\">volume</th><th "
       "class=\"name\">surface</th><th>what moves</th><th>frames</th><th>shadow map redrawn in</th><th>volume "
       "redrawn in</th><th>frame [ms]</th></tr></thead><tbody>\n";
-  for (const Run& run : comparison.runs) {
-    for (const MotionShare& share : shares_of_motion(path, run)) {
-      html += "<tr>" + cell(run.volume) + cell(run.surface) +
-              cell(std::string(scene::motion_name(share.motion))) + cell(fmt::format("{}", share.frames)) +
-              cell(fmt::format("{}", share.shadow_maps)) + cell(fmt::format("{}", share.volumes)) +
-              cell(fmt::format("{:.2f}", share.ms)) + "</tr>\n";
-    }
-  }
+  html += rows_of(motion_rows(comparison));
   return html +
          "</tbody></table></div>\n<p>Mean and worst over frames. What moves, since the frame before; of the "
          "first, "

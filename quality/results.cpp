@@ -166,32 +166,20 @@ std::string layout(const std::vector<std::vector<std::string>>& rows, std::size_
 /// Time and error of each run along a path, and apart for each motion from frame to frame.
 std::string path_tables(const Comparison& comparison) {
   const ComparedPath& path = *comparison.path;
-  const auto error = [&](double value) { return error_text(value, comparison.truth.bound); };
-  std::string text =
-      fmt::format("path: {} frames in {:g} s, mean and worst\n", path.frames.size(), path.seconds);
-  std::vector<std::vector<std::string>> rows = {{"volume", "surface", "frame ms", "worst", "rrmse %", "worst",
-                                                 "same-surface rrmse %", "worst", "worst frame"}};
-  for (const Run& run : comparison.runs) {
-    const PathSpreads spreads = path_spreads(run);
-    rows.push_back({run.volume, run.surface, fmt::format("{:.2f}", spreads.ms.mean),
-                    fmt::format("{:.2f}", spreads.ms.worst), error(spreads.rrmse.mean),
-                    error(spreads.rrmse.worst), error(spreads.same_surface_rrmse.mean),
-                    error(spreads.same_surface_rrmse.worst), fmt::format("{}", run.worst_frame)});
-  }
-  text += layout(rows, 2);
-
-  rows.assign(1, {"volume", "surface", "what moves", "frames", "shadow map", "volume redrawn", "frame ms"});
-  for (const Run& run : comparison.runs) {
-    for (const MotionShare& share : shares_of_motion(path, run)) {
-      rows.push_back({run.volume, run.surface, std::string(scene::motion_name(share.motion)),
-                      fmt::format("{}", share.frames), fmt::format("{}", share.shadow_maps),
-                      fmt::format("{}", share.volumes), fmt::format("{:.2f}", share.ms)});
-    }
-  }
-  return text + '\n' + layout(rows, 3) +
+  const auto table = [](std::vector<std::string> headings, std::vector<std::vector<std::string>> rows,
+                        std::size_t names) {
+    rows.insert(rows.begin(), std::move(headings));
+    return layout(rows, names);
+  };
+  return fmt::format("path: {} frames in {:g} s, mean and worst\n", path.frames.size(), path.seconds) +
+         table({"volume", "surface", "frame ms", "worst", "rrmse %", "worst", "same-surface rrmse %", "worst",
+                "worst frame"},
+               spread_rows(comparison), 2) +
+         '\n' +
+         table({"volume", "surface", "what moves", "frames", "shadow map", "volume redrawn", "frame ms"},
+               motion_rows(comparison), 3) +
          "what moves: since the frame before; of the first, all. shadow map, volume redrawn: in how many of "
-         "these "
-         "frames.\n\n";
+         "these frames.\n\n";
 }
 
 }  // namespace
@@ -275,6 +263,31 @@ std::vector<StagesRow> stages_rows(const Comparison& comparison) {
       const Cost::OfLight& light = run.cost.lights[i];
       rows.push_back(
           {run, comparison.view.lights[i].name + (light.is_skipped ? " (skipped)" : ""), light.stages_ms});
+    }
+  }
+  return rows;
+}
+
+std::vector<std::vector<std::string>> spread_rows(const Comparison& comparison) {
+  const auto error = [&](double value) { return error_text(value, comparison.truth.bound); };
+  std::vector<std::vector<std::string>> rows;
+  for (const Run& run : comparison.runs) {
+    const PathSpreads spreads = path_spreads(run);
+    rows.push_back({run.volume, run.surface, fmt::format("{:.2f}", spreads.ms.mean),
+                    fmt::format("{:.2f}", spreads.ms.worst), error(spreads.rrmse.mean),
+                    error(spreads.rrmse.worst), error(spreads.same_surface_rrmse.mean),
+                    error(spreads.same_surface_rrmse.worst), fmt::format("{}", run.worst_frame)});
+  }
+  return rows;
+}
+
+std::vector<std::vector<std::string>> motion_rows(const Comparison& comparison) {
+  std::vector<std::vector<std::string>> rows;
+  for (const Run& run : comparison.runs) {
+    for (const MotionShare& share : shares_of_motion(*comparison.path, run)) {
+      rows.push_back({run.volume, run.surface, std::string(scene::motion_name(share.motion)),
+                      fmt::format("{}", share.frames), fmt::format("{}", share.shadow_maps),
+                      fmt::format("{}", share.volumes), fmt::format("{:.2f}", share.ms)});
     }
   }
   return rows;

@@ -122,6 +122,14 @@ struct StagesRow {
 /// Each run's, followed, where there are several lights, by one for each.
 std::vector<StagesRow> stages_rows(const Comparison& comparison);
 
+/// Time and error of each run along the path, mean and worst over its frames: volume, surface, frame [ms],
+/// worst, rrmse [%], worst, same-surface rrmse [%], worst, worst frame.
+std::vector<std::vector<std::string>> spread_rows(const Comparison& comparison);
+
+/// Each run's frames apart by what moves (shares_of_motion): volume, surface, what moves, frames, shadow maps
+/// redrawn, volumes redrawn, frame [ms].
+std::vector<std::vector<std::string>> motion_rows(const Comparison& comparison);
+
 /// Says that the truth is dark, and what that means.
 std::string dark_text(const TruthFigures& truth);
 

@@ -193,8 +193,7 @@ bool SharedReference::load_exact(std::size_t light, int refinement) {
 const reference::SurfaceImage& SharedReference::surfaces(std::size_t light) {
   OfLight& of_light = lights_[light];
   if (load_surfaces(light)) {
-    work_.kept_surface_ms += of_light.surfaces_ms;
-    work_.kept_stages_ms[light]["surface_query"] += of_light.surfaces_ms;
+    work_.kept_ms[light]["surface_query"] += of_light.surfaces_ms;
     return *of_light.surfaces;
   }
   const reference::Reference& reference = rays(light);
@@ -203,6 +202,13 @@ const reference::SurfaceImage& SharedReference::surfaces(std::size_t light) {
   of_light.surfaces_ms = milliseconds_since(start);
   if (cache_) cache_->save_surfaces(light, {*of_light.surfaces, of_light.surfaces_ms});
   return *of_light.surfaces;
+}
+
+double SharedReference::Work::kept_ms_of(const std::string& stage) const {
+  double sum = 0.0;
+  for (const auto& [light, stages] : kept_ms)
+    if (const auto found = stages.find(stage); found != stages.end()) sum += found->second;
+  return sum;
 }
 
 void SharedReference::count(const reference::AirlightImage& image) {
@@ -221,10 +227,7 @@ const reference::AirlightImage& SharedReference::exact(std::size_t light, int re
   }
   const reference::AirlightImage& image = of_light.exact.at(refinement);
   count(image);
-  if (is_kept) {
-    work_.kept_airlight_ms += image.ms;
-    work_.kept_stages_ms[light]["integrate"] += image.ms;
-  }
+  if (is_kept) work_.kept_ms[light]["integrate"] += image.ms;
   return image;
 }
 

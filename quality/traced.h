@@ -44,12 +44,11 @@ class SharedReference {
   struct Work {
     std::uint64_t airlight_rays = 0;  ///< occlusion rays for airlight
     double airlight_ms = 0.0;         ///< time of tracing airlight
-    double kept_airlight_ms =
-        0.0;  ///< the part of `airlight_ms` not spent now, because the image had been kept
-    double kept_surface_ms = 0.0;  ///< the same for surfaces
-    double self_error = 0.0;       ///< the largest of reference::AirlightImage::self_error
-    /// What was not spent now, for each light by the stage that it would have been spent in.
-    std::map<std::size_t, std::map<std::string, double>> kept_stages_ms;
+    double self_error = 0.0;          ///< the largest of reference::AirlightImage::self_error
+    /// Time that was not spent now, because images had been kept: for each light by the stage that it would
+    /// have been spent in, of airlight "integrate", of surfaces "surface_query".
+    std::map<std::size_t, std::map<std::string, double>> kept_ms;
+    double kept_ms_of(const std::string& stage) const;  ///< over all lights
   };
   Work take_work() { return std::exchange(work_, {}); }
 

@@ -264,18 +264,18 @@ TEST(SharedReference, TracesTheTruthOnceAndChargesForItTwice) {
   const reference::AirlightImage* image = &shared.exact(0, 1);
   const SharedReference::Work first = shared.take_work();
   EXPECT_GT(first.airlight_ms, 0.0);
-  EXPECT_EQ(first.kept_airlight_ms, 0.0);
+  EXPECT_EQ(first.kept_ms_of("integrate"), 0.0);
   EXPECT_EQ(&shared.exact(0, 1), image);
   const SharedReference::Work second = shared.take_work();
   EXPECT_EQ(second.airlight_ms, first.airlight_ms);
-  EXPECT_EQ(second.kept_airlight_ms, first.airlight_ms);
+  EXPECT_EQ(second.kept_ms_of("integrate"), first.airlight_ms);
   EXPECT_NE(&shared.exact(0, 2), image);
-  EXPECT_EQ(shared.take_work().kept_airlight_ms, 0.0);
+  EXPECT_EQ(shared.take_work().kept_ms_of("integrate"), 0.0);
 
   shared.surfaces(0);
-  EXPECT_EQ(shared.take_work().kept_surface_ms, 0.0);
+  EXPECT_EQ(shared.take_work().kept_ms_of("surface_query"), 0.0);
   shared.surfaces(0);
-  EXPECT_GT(shared.take_work().kept_surface_ms, 0.0);
+  EXPECT_GT(shared.take_work().kept_ms_of("surface_query"), 0.0);
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ TEST_F(Cache, GivesBackEveryBitWithoutTracing) {
   EXPECT_EQ(kept.figures.bound, traced.figures.bound);
   EXPECT_EQ(kept.figures.shadows_per_pixel, traced.figures.shadows_per_pixel);
   EXPECT_EQ(kept.figures.lit_runs_per_pixel, traced.figures.lit_runs_per_pixel);
-  EXPECT_EQ(shared.take_work().kept_airlight_ms, kept.figures.ms);
+  EXPECT_EQ(shared.take_work().kept_ms_of("integrate"), kept.figures.ms);
   EXPECT_EQ(files(), 4);
 }
 
