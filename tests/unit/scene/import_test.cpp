@@ -18,6 +18,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/error.h"
+#include "support/errors.h"
 #include "support/shared.h"
 
 namespace airlight::scene {
@@ -28,7 +29,6 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using testing::Not;
 
 constexpr float k_nan = std::numeric_limits<float>::quiet_NaN();
 /// Positions and intensities of the importers end in single precision.
@@ -57,15 +57,7 @@ class Import : public testing::Test {
 
   /// Expects an error of one line that names the file and holds the text.
   void expect_error(const std::filesystem::path& file, const std::string& text) {
-    try {
-      import_scene(file);
-      ADD_FAILURE() << "no error; expected one with: " << text;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.exit_code, ExitCode::bad_file);
-      EXPECT_THAT(error.what(), HasSubstr(text));
-      EXPECT_THAT(error.what(), HasSubstr(file.filename().string()));
-      EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
-    }
+    tests::expect_error(ExitCode::bad_file, {text, file.filename().string()}, [&] { import_scene(file); });
   }
   void expect_error(const std::string& name, std::string_view content, const std::string& text) {
     expect_error(write(name, content), text);

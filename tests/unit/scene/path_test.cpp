@@ -12,6 +12,7 @@
 #include "scene/builtin.h"
 #include "scene/error.h"
 #include "scene/view_fields.h"
+#include "support/errors.h"
 #include "support/paths.h"
 
 namespace airlight::scene {
@@ -20,7 +21,6 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using testing::Not;
 using D = glm::dvec3;
 using V = glm::vec3;
 
@@ -41,15 +41,7 @@ class PathFile : public testing::Test {
   }
 
   void expect_error(std::string_view content, const std::string& text) {
-    try {
-      load(content);
-      ADD_FAILURE() << "no error; expected one with: " << text;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.exit_code, ExitCode::bad_file) << error.what();
-      EXPECT_THAT(error.what(), HasSubstr(text));
-      EXPECT_THAT(error.what(), HasSubstr(" path.toml"));
-      EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
-    }
+    tests::expect_error(ExitCode::bad_file, {text, " path.toml"}, [&] { load(content); });
   }
 
   std::filesystem::path file_;
@@ -165,7 +157,9 @@ TEST_F(PathFile, ErrorsNameFileLineAndKey) {
 TEST_F(PathFile, EveryFrameIsAViewThatCanBe) {
   expect_error(k_head + "[[camera]]\ntime = 0\neye = [0, 1, 4]\n[[camera]]\ntime = 2\neye = [0, 1, -4]\n",
                "frame 2 (1 s): camera: eye and target are both");
-  expect_error(k_head + "[[camera]]\ntime = 0\neye = [0, 3, 4]\ntarget = [5, 3, 0]\n[[camera]]\ntime = 2\neye = [0, 3, -4]\n",
+  expect_error(k_head +
+                   "[[camera]]\ntime = 0\neye = [0, 3, 4]\ntarget = [5, 3, 0]\n[[camera]]\ntime = 2\neye = "
+                   "[0, 3, -4]\n",
                "frame 2 (1 s): light 'lamp': it is at the eye");
 }
 

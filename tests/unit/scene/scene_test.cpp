@@ -11,11 +11,10 @@
 
 #include "scene/error.h"
 #include "scene/light_texture.h"
+#include "support/errors.h"
 
 namespace airlight::scene {
 namespace {
-
-using testing::HasSubstr;
 
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
@@ -28,13 +27,7 @@ void expect_near(glm::dvec3 a, glm::dvec3 b, double tolerance = k_rounding) {
 
 /// Expects an error of that code whose message holds that text.
 void expect_error(ExitCode code, const std::string& text, const std::function<void()>& act) {
-  try {
-    act();
-    ADD_FAILURE() << "no error; expected one with: " << text;
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit_code, code) << error.what();
-    EXPECT_THAT(error.what(), HasSubstr(text));
-  }
+  tests::expect_error(code, {text}, act);
 }
 
 Geometry triangle_geometry() {

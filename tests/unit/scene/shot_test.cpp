@@ -12,13 +12,13 @@
 #include <gtest/gtest.h>
 
 #include "scene/error.h"
+#include "support/errors.h"
 #include "support/paths.h"
 
 namespace airlight::scene {
 namespace {
 
 using testing::HasSubstr;
-using testing::Not;
 
 using V = glm::vec3;
 using D = glm::dvec3;
@@ -42,15 +42,7 @@ class Shot : public testing::Test {
   Scene load(std::string_view content) { return load_shot(write("a shot.toml", content)); }
 
   void expect_error(std::string_view content, const std::string& text) {
-    try {
-      load(content);
-      ADD_FAILURE() << "no error; expected one with: " << text;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.exit_code, ExitCode::bad_file) << error.what();
-      EXPECT_THAT(error.what(), HasSubstr(text));
-      EXPECT_THAT(error.what(), HasSubstr("a shot.toml"));
-      EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
-    }
+    tests::expect_error(ExitCode::bad_file, {text, "a shot.toml"}, [&] { load(content); });
   }
 
   std::filesystem::path folder_;
