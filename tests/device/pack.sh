@@ -6,7 +6,7 @@
 # chosen there (libraries.sh): the machine's, or the pack's where that is newer, since each supports what was built with an
 # older one, and the driver has to live in the same process.
 #
-# Scenes: the project's own, and those of AIRLIGHT_SHARED (default ../shared) that measure.sh names, where they exist.
+# Scenes: the project's own, and of AIRLIGHT_SHARED (default ../shared), where it exists, the truth and the smaller models.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 source cmake/setup.sh
@@ -34,10 +34,14 @@ cp tests/device/measure.sh "$pack/"
 cp -r assets "$pack/assets"
 cp -r tests/image/expected "$pack/expected"
 cp docs/results.schema.json "$pack/"
-for scene in victorian_fence_19k cornell_box_36 sponza_262k; do
-  file=${AIRLIGHT_SHARED:-../shared}/scenes/$scene.glb
-  if [ -f "$file" ]; then cp "$file" "$pack/scenes/"; else echo "pack.sh: without $scene: $file is not there" >&2; fi
-done
+shared=${AIRLIGHT_SHARED:-../shared}
+if [ -d "$shared/scenes" ]; then
+  # What is larger would be most of the pack.
+  find "$shared/scenes" -type f -size -5M -exec cp {} "$pack/scenes/" \;
+  cp -r "$shared/truth" "$pack/"
+else
+  echo "pack.sh: without shared scenes: $shared/scenes is not there" >&2
+fi
 
 # Their libraries, in folders by what decides whether the machine's own serve instead.
 libraries() { ldd "$@" | awk '$2 == "=>" { print $3 }' | sort -u; }
