@@ -76,7 +76,7 @@ void main() {
                                below | zero2, below | zero2 | (equal & zero1 & zero0), below | zero2 | (equal & zero1),
                                below | zero2 | (equal & (zero1 | zero0)), below | equal);
     for (uint low = 0u; low < 8u; ++low) {
-      if (k_alpha_count % 8u == 0u || i + low < k_alpha_count) grid[at] = texels[low];
+      if (i + low < k_alpha_count) grid[at] = texels[low];
       at += k_texels_per_ray;
     }
   }

@@ -133,7 +133,8 @@ void main() {
       longest = min(longest, panel_length_by_growth(fog, k_phase, view.complement, from, growth));
       if ((k_reach & k_reach_of_range) != 0u)
         longest = min(longest, min(k_from_far_end * (view.alpha + from), k_to_far_end * (view.complement - from)));
-      bool is_on_edge = (k_reach & k_reach_of_cone) != 0u && (from < part.inner_from || from >= part.inner_to);
+      bool is_on_edge = false;
+      if ((k_reach & k_reach_of_cone) != 0u) is_on_edge = from < part.inner_from || from >= part.inner_to;
       if (is_on_edge) longest = min(longest, k_longest_on_edge);
       if (k_light_textured != 0u) {
         longest *= k_straight;

@@ -108,9 +108,10 @@ VsvRay vsv_ray(ivec2 pixel) {
       is_dark = is_shadowed(ray.texel, uint(ray.last_valid));
     } else {
       is_dark = light_above(light, surface.xyz, surface.w * dot(surface.xyz, direction)) <= 0.0;
-      if (k_looks_away != 0u && ray.angle.cosine < 0.0 && !is_dark) {
+      if (k_looks_away != 0u) {
         uint beside_eye = alpha_cell(space, 0.5 * k_pi, k_alpha_count);
-        is_dark = is_shadowed(int((j * k_alpha_count + beside_eye) * k_texels_per_ray), 0u);
+        if (ray.angle.cosine < 0.0 && !is_dark)
+          is_dark = is_shadowed(int((j * k_alpha_count + beside_eye) * k_texels_per_ray), 0u);
       }
     }
     ray.beyond_valid = is_dark ? 0xffffffffu : 0u;

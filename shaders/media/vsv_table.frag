@@ -96,9 +96,10 @@ void main() {
       integral[channel] = mix(rows.x, rows.y, blend);
     }
     // What the table leaves to the end: within a cell, or beyond its last column.
-    if ((k_rough != 0u || k_layer != k_no_layer) && ends_in_light && !ray.is_open) {
+    if (k_rough != 0u || k_layer != k_no_layer) {
       float from = k_rough != 0u ? phi_of_cell(ray.cells, float(ray.last_cell)) : ray.cells.phi_max;
-      integral += integrate_run(space, medium, k_phase, alpha_complement(ray.angle), from, ray.phi_end);
+      if (ends_in_light && !ray.is_open)
+        integral += integrate_run(space, medium, k_phase, alpha_complement(ray.angle), from, ray.phi_end);
     }
     if (k_factored != 0u) {
       if (goes_beyond(ray)) lit_range += ray.phi_end - word_start;

@@ -31,7 +31,8 @@ void main() {
         entry += integrate_run(space, medium, k_phase, complement, ends.x, ends.y);
       }
     } else if (from < to) {
-      bool is_smooth = k_rough == 0u && to - from < 0.1 * (complement - from);
+      bool is_smooth = to - from < 0.1 * (complement - from);
+      if (k_rough != 0u) is_smooth = false;
       sum += is_smooth ? integrate_cell(space, medium, k_phase, complement, from, to)
                        : integrate_run(space, medium, k_phase, complement, from, to);
       to = from;

@@ -6,7 +6,9 @@
 #include <map>
 #include <memory>
 #include <numbers>
+#include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "frame/none.h"
@@ -46,6 +48,17 @@ void expect_near(const std::vector<glm::vec3>& image, const std::vector<glm::vec
   }
 }
 
+/// Which, and how many.
+template <class Value>
+std::string pixels_that_differ(const std::vector<Value>& image, const std::vector<Value>& expected) {
+  std::string pixels;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < std::max(image.size(), expected.size()); ++i)
+    if (i >= image.size() || i >= expected.size() || image[i] != expected[i])
+      if (++count <= 10) pixels += fmt::format("{} ", i);
+  return count == 0 ? "" : fmt::format("{} of {}: {}", count, image.size(), pixels);
+}
+
 std::shared_ptr<const scene::LightTexture> two_colours() {
   return std::make_shared<scene::LightTexture>(
       "t", glm::ivec2(2, 1), std::vector<glm::vec3>{{1.0f, 0.2f, 0.1f}, {0.0f, 1.0f, 0.5f}});
@@ -81,8 +94,8 @@ void expect_sum_of_lights(const media::VsvOptions& options, const scene::View& v
       radiance[i] += one.radiance[i];
       airlight[i] += one.airlight[i];
     }
-    EXPECT_EQ(all.visibility[light], one.visibility[0]) << light;
-    EXPECT_EQ(all.airlight_of_light[light], one.airlight) << light;
+    EXPECT_EQ(pixels_that_differ(all.visibility[light], one.visibility[0]), "") << "light " << light;
+    EXPECT_EQ(pixels_that_differ(all.airlight_of_light[light], one.airlight), "") << "light " << light;
     EXPECT_EQ(all.lights[light], view.lights[light].name);
     EXPECT_TRUE(one.airlight_of_light.empty());
   }

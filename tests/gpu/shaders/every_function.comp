@@ -1,5 +1,6 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#define PRIVATE
 #include "every_function.glsl"
 
 layout(local_size_x = 64) in;
@@ -9,7 +10,6 @@ layout(std430, binding = 1) writeonly buffer AllOutputs { Outputs all_outputs[];
 void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= uint(all_inputs.length())) return;
-  Outputs outputs;
-  call_every_function(all_inputs[i], outputs);
+  call_every_function(all_inputs[i]);
   all_outputs[i] = outputs;
 }

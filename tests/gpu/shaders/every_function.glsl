@@ -25,49 +25,52 @@ struct Outputs {
   float values[k_outputs];
 };
 
-// Writes 3 values from `at` on.
-FUNCTION void put(INOUT(Outputs) outputs, INOUT(uint) at, IN(vec3) value) {
-  outputs.values[at] = value.x;
-  outputs.values[at + 1u] = value.y;
-  outputs.values[at + 2u] = value.z;
-  at += 3u;
-}
+// Where the next value goes, and all before it. Of the whole invocation: handed down as parameters from function to function, an element
+// of an array is an "lvalue too complex" for NVIDIA's compiler.
+PRIVATE Outputs outputs;
+PRIVATE uint at;
 
-FUNCTION void put(INOUT(Outputs) outputs, INOUT(uint) at, float value) {
+FUNCTION void put(float value) {
   outputs.values[at] = value;
   at += 1u;
 }
 
-FUNCTION void put(INOUT(Outputs) outputs, INOUT(uint) at, IN(vec2) value) {
-  put(outputs, at, value.x);
-  put(outputs, at, value.y);
+FUNCTION void put(IN(vec3) value) {
+  put(value.x);
+  put(value.y);
+  put(value.z);
 }
 
-FUNCTION void put(INOUT(Outputs) outputs, INOUT(uint) at, IN(PlaneSpan) span) {
-  put(outputs, at, float(span.first));
-  put(outputs, at, float(span.count));
-  put(outputs, at, float(span.wrapped_first));
-  put(outputs, at, float(span.wrapped_count));
+FUNCTION void put(IN(vec2) value) {
+  put(value.x);
+  put(value.y);
 }
 
-FUNCTION void put(INOUT(Outputs) outputs, INOUT(uint) at, IN(SlabOutline) outline) {
+FUNCTION void put(IN(PlaneSpan) span) {
+  put(float(span.first));
+  put(float(span.count));
+  put(float(span.wrapped_first));
+  put(float(span.wrapped_count));
+}
+
+FUNCTION void put(IN(SlabOutline) outline) {
   for (int i = 0; i < 5; ++i) {
-    put(outputs, at, outline.segment[i].x);
-    put(outputs, at, outline.segment[i].y);
-    put(outputs, at, outline.segment[i].z);
-    put(outputs, at, outline.segment[i].w);
+    put(outline.segment[i].x);
+    put(outline.segment[i].y);
+    put(outline.segment[i].z);
+    put(outline.segment[i].w);
   }
 }
 
 // Not in a loop: a compiler that leaves one as it is no longer knows where the values after it go, which costs it minutes.
-FUNCTION void put_cells_of_alpha(INOUT(Outputs) outputs, INOUT(uint) at, INOUT(EpipolarBlock) space, float spacing, Angle alpha) {
+FUNCTION void put_cells_of_alpha(INOUT(EpipolarBlock) space, float spacing, Angle alpha) {
   space.alpha_spacing = spacing;
-  put(outputs, at, spaced_alpha(space, alpha));
-  put(outputs, at, float(cell_of_alpha(space, alpha)));
-  put(outputs, at, float(alpha_of_cell(space, Cell(80.0f * float(alpha)))));
+  put(spaced_alpha(space, alpha));
+  put(float(cell_of_alpha(space, alpha)));
+  put(float(alpha_of_cell(space, Cell(80.0f * float(alpha)))));
 }
 
-FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
+FUNCTION void call_every_function(IN(Inputs) inputs) {
   for (uint i = 0u; i < k_outputs; ++i) outputs.values[i] = 0.0f;
   vec3 l = vec3(inputs.a.x, inputs.a.y, inputs.a.z);
   vec3 ray = vec3(inputs.b.x, inputs.b.y, inputs.b.z);
@@ -135,137 +138,137 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   camera.forward = l;
   camera.near = 0.1f;
 
-  uint at = 0u;
+  at = 0u;
   EyeAngle angle = eye_angle(space, ray, 1e-4f);
-  put(outputs, at, angle.sine);
-  put(outputs, at, angle.cosine);
-  put(outputs, at, float(alpha_of(angle)));
-  put(outputs, at, float(alpha_complement(angle)));
-  put(outputs, at, float(theta_of(space, ray)));
-  put(outputs, at, float(phi_at(space, angle, t)));
+  put(angle.sine);
+  put(angle.cosine);
+  put(float(alpha_of(angle)));
+  put(float(alpha_complement(angle)));
+  put(float(theta_of(space, ray)));
+  put(float(phi_at(space, angle, t)));
   EyeAngle given;
   given.sine = sine(alpha);
   given.cosine = cosine(alpha);
-  put(outputs, at, float(alpha_at(space, sine(phi), cosine(phi), t)));
-  put(outputs, at, path_length(space, complement, phi));
-  put(outputs, at, float(angle_order(abs(t * ray.x), t * ray.y)));
-  put(outputs, at, float(angle_from_order(Order(0.6f * float(alpha)))));
-  put(outputs, at, float(theta_centre(space, uint(100.0f * float(alpha)))));
-  put(outputs, at, float(theta_cell(space, theta, 333u)));
-  put(outputs, at, float(alpha_cell(space, alpha, 512u)));
-  put(outputs, at, float(first_shadowed_cell(space, alpha, 512u)));
-  put(outputs, at, float(grid_word(uint(100.0f * float(alpha)), uint(100.0f * float(phi)), 3u, 512u, 16u)));
+  put(float(alpha_at(space, sine(phi), cosine(phi), t)));
+  put(path_length(space, complement, phi));
+  put(float(angle_order(abs(t * ray.x), t * ray.y)));
+  put(float(angle_from_order(Order(0.6f * float(alpha)))));
+  put(float(theta_centre(space, uint(100.0f * float(alpha)))));
+  put(float(theta_cell(space, theta, 333u)));
+  put(float(alpha_cell(space, alpha, 512u)));
+  put(float(first_shadowed_cell(space, alpha, 512u)));
+  put(float(grid_word(uint(100.0f * float(alpha)), uint(100.0f * float(phi)), 3u, 512u, 16u)));
   float half_sine = sine_of_quarter(0.5f * phi);
   float half_cosine = cosine(0.5f * phi);
-  put(outputs, at, phase_function(k_isotropic, medium, half_sine, half_cosine));
-  put(outputs, at, phase_function(k_rayleigh, medium, half_sine, half_cosine));
-  put(outputs, at, phase_function(k_henyey_greenstein, medium, half_sine, half_cosine));
-  put(outputs, at, phase_function(k_hoffman_preetham, medium, half_sine, half_cosine));
-  put(outputs, at, airlight_integrand(space, medium, k_henyey_greenstein, complement, phi));
-  put(outputs, at, integrate_cell(space, medium, k_rayleigh, complement, 0.9f * phi, phi));
-  put(outputs, at, float(smooth_length(space, medium, k_henyey_greenstein, complement, phi)));
-  put(outputs, at, integrate_run(space, medium, k_henyey_greenstein, complement, 0.5f * phi, phi));
-  put(outputs, at, table_place(alpha));
-  put(outputs, at, float(complement_at(0.6f * float(alpha))));
-  put(outputs, at, airlight_scale(space, light, medium, given.sine));
+  put(phase_function(k_isotropic, medium, half_sine, half_cosine));
+  put(phase_function(k_rayleigh, medium, half_sine, half_cosine));
+  put(phase_function(k_henyey_greenstein, medium, half_sine, half_cosine));
+  put(phase_function(k_hoffman_preetham, medium, half_sine, half_cosine));
+  put(airlight_integrand(space, medium, k_henyey_greenstein, complement, phi));
+  put(integrate_cell(space, medium, k_rayleigh, complement, 0.9f * phi, phi));
+  put(float(smooth_length(space, medium, k_henyey_greenstein, complement, phi)));
+  put(integrate_run(space, medium, k_henyey_greenstein, complement, 0.5f * phi, phi));
+  put(table_place(alpha));
+  put(float(complement_at(0.6f * float(alpha))));
+  put(airlight_scale(space, light, medium, given.sine));
   CubePoint point = cube_point(any_vector);
-  put(outputs, at, float(point.face));
-  put(outputs, at, point.uv.x);
-  put(outputs, at, point.uv.y);
-  put(outputs, at, point.depth);
-  put(outputs, at, cube_direction(point.face, point.uv));
+  put(float(point.face));
+  put(point.uv.x);
+  put(point.uv.y);
+  put(point.depth);
+  put(cube_direction(point.face, point.uv));
   ivec2 texel = cube_texel(point.uv, 512.0f);
-  put(outputs, at, float(texel.x));
-  put(outputs, at, float(texel.y));
+  put(float(texel.x));
+  put(float(texel.y));
   vec2 centre = cube_texel_centre(texel, 512.0f);
-  put(outputs, at, centre.x);
-  put(outputs, at, centre.y);
-  put(outputs, at, view_ray(camera, vec2(100.0f * float(alpha), 60.0f * float(phi))));
-  put(outputs, at, quarter_pixel(camera));
+  put(centre.x);
+  put(centre.y);
+  put(view_ray(camera, vec2(100.0f * float(alpha), 60.0f * float(phi))));
+  put(quarter_pixel(camera));
   PRECISE vec3 world = 100.0f * ray + 0.01f * any_vector;
-  put(outputs, at, eye_relative(camera, world));
-  put(outputs, at, ray_triangle_distance(l, t * l + space.u, t * l - 2.0f * space.f, 2.0f * t * l - space.u + space.f));
+  put(eye_relative(camera, world));
+  put(ray_triangle_distance(l, t * l + space.u, t * l - 2.0f * space.f, 2.0f * t * l - space.u + space.f));
   PhiCells cells = shared_cells(complement, 1.0f + g, Cell(512.0f));
-  put(outputs, at, float(phi_of_cell(cells, Cell(100.0f * float(alpha)))));
-  put(outputs, at, float(cell_of_phi(cells, phi)));
+  put(float(phi_of_cell(cells, Cell(100.0f * float(alpha)))));
+  put(float(cell_of_phi(cells, phi)));
   vec2 place = light_texture_place(float(theta), 0.5f * float(theta));
-  put(outputs, at, place.x);
-  put(outputs, at, place.y);
+  put(place.x);
+  put(place.y);
   TexelBlend blend = light_texture_blend(place, ivec2(40, 20));
-  put(outputs, at, vec3(blend.from.x, blend.from.y, 0.0f) + vec3(blend.weight.x, blend.weight.y, 0.0f));
-  put(outputs, at, vec3(blend.to.x, blend.to.y, 0.0f) + vec3(blend.weight.x, blend.weight.y, 0.0f));
+  put(vec3(blend.from.x, blend.from.y, 0.0f) + vec3(blend.weight.x, blend.weight.y, 0.0f));
+  put(vec3(blend.to.x, blend.to.y, 0.0f) + vec3(blend.weight.x, blend.weight.y, 0.0f));
 
-  put(outputs, at, sine(4.0f * theta));
-  put(outputs, at, cosine(4.0f * theta));
-  put(outputs, at, sine_of_quarter(0.5f * theta));
-  put(outputs, at, float(angle_of(ray.x, ray.y)));
-  put(outputs, at, ordered_dot(ray, l));
-  put(outputs, at, unit_or(any_vector, l));
-  put(outputs, at, float(plane_of_theta(space, theta)));
-  put(outputs, at, float(theta_of_plane(space, Cell(100.0f * float(alpha)))));
-  put(outputs, at, float(theta_from_middle(space, theta)));
-  put(outputs, at, float(theta_to_centre(space, theta, 10u)));
+  put(sine(4.0f * theta));
+  put(cosine(4.0f * theta));
+  put(sine_of_quarter(0.5f * theta));
+  put(float(angle_of(ray.x, ray.y)));
+  put(ordered_dot(ray, l));
+  put(unit_or(any_vector, l));
+  put(float(plane_of_theta(space, theta)));
+  put(float(theta_of_plane(space, Cell(100.0f * float(alpha)))));
+  put(float(theta_from_middle(space, theta)));
+  put(float(theta_to_centre(space, theta, 10u)));
   vec4 surface = vec4(-ray + 0.3f * l, t);
-  put(outputs, at, float(phi_to_row_end(space, angle, ray, surface, Angle(0.002f), Angle(-0.001f), 0.0f)));
+  put(float(phi_to_row_end(space, angle, ray, surface, Angle(0.002f), Angle(-0.001f), 0.0f)));
 
   // A triangle in front of the eye, of the size of its distance.
   vec3 a = t * ray;
   vec3 b = a + 0.5f * t * space.u;
   vec3 c = a + 0.7f * t * space.f + 0.1f * t * l;
-  put(outputs, at, float(slabs_per_plane(space)));
+  put(float(slabs_per_plane(space)));
   float slack = position_slack(space, a, b, c);
-  put(outputs, at, slack);
-  put(outputs, at, distance_to_segment(vec2(ray.x, ray.y), vec2(any_vector.x, any_vector.y)));
-  put(outputs, at, float(wrapped(2.0f * theta)));
+  put(slack);
+  put(distance_to_segment(vec2(ray.x, ray.y), vec2(any_vector.x, any_vector.y)));
+  put(float(wrapped(2.0f * theta)));
   VoxelTriangle triangle = voxel_triangle(space, a, b, c, 333u);
-  put(outputs, at, triangle.a);
-  put(outputs, at, triangle.planes);
-  put(outputs, at, float(plane_at(triangle.planes, 0u)));
+  put(triangle.a);
+  put(triangle.planes);
+  put(float(plane_at(triangle.planes, 0u)));
   vec2 range = clip(vec2(0.0f, 1.0f), ray.x, g);
-  put(outputs, at, range.x);
-  put(outputs, at, range.y);
+  put(range.x);
+  put(range.y);
   float plane = float(plane_at(triangle.planes, plane_count(triangle.planes) / 2u));
   Angle middle = theta_of_plane(space, Cell(plane + 0.5f));
   SlabPart part = part_in_slab(space, cells, triangle, middle - Angle(0.01f), middle + Angle(0.01f));
-  put(outputs, at, part.outline);
-  put(outputs, at, curvature_slack(part.outline, 0.01f));
+  put(part.outline);
+  put(curvature_slack(part.outline, 0.01f));
   vec2 orders = phi_order_bounds(space, part.outline, slack);
-  put(outputs, at, orders.x);
-  put(outputs, at, orders.y);
-  put(outputs, at, float(part.first_ray));
-  put(outputs, at, float(part.end_ray));
+  put(orders.x);
+  put(orders.y);
+  put(float(part.first_ray));
+  put(float(part.end_ray));
   vec3 from_ray = boundary_ray(space, cells, 0u);
   vec3 to_ray = boundary_ray(space, cells, 511u);
-  put(outputs, at, to_ray.x);
-  put(outputs, at, to_ray.y);
-  put(outputs, at, float(least_alpha_order(space, part.outline, from_ray, to_ray, slack)));
-  put(outputs, at, float(first_touched_cell(space, part, from_ray, to_ray, 512u)));
+  put(to_ray.x);
+  put(to_ray.y);
+  put(float(least_alpha_order(space, part.outline, from_ray, to_ray, slack)));
+  put(float(first_touched_cell(space, part, from_ray, to_ray, 512u)));
 
   // Both kinds of light.
   EpipolarBlock sun_space = space;
   sun_space.distance = 0.0f;
   sun_space.inverse_distance = 0.0f;
-  put(outputs, at, float(phi_through(space, 0.3f * t, 0.7f)));
-  put(outputs, at, float(phi_at(sun_space, angle, t)));
-  put(outputs, at, float(phi_of_end(space, angle, t, true)));
-  put(outputs, at, crossing_of(space, 0.4f * phi));
-  put(outputs, at, crossing_of(sun_space, phi));
-  put(outputs, at, float(phi_order_at(space, angle, t)));
-  put(outputs, at, float(phi_order_at(sun_space, angle, t)));
-  put(outputs, at, float(phi_order_of_open_end(space, angle)));
-  put(outputs, at, float(phi_from_order(space, Order(0.6f * float(alpha)))));
-  put(outputs, at, float(phi_from_order(sun_space, Order(t))));
-  put_cells_of_alpha(outputs, at, space, k_equal_alpha, alpha);
-  put_cells_of_alpha(outputs, at, space, k_root_of_alpha, alpha);
-  put_cells_of_alpha(outputs, at, space, k_root_of_complement, alpha);
+  put(float(phi_through(space, 0.3f * t, 0.7f)));
+  put(float(phi_at(sun_space, angle, t)));
+  put(float(phi_of_end(space, angle, t, true)));
+  put(crossing_of(space, 0.4f * phi));
+  put(crossing_of(sun_space, phi));
+  put(float(phi_order_at(space, angle, t)));
+  put(float(phi_order_at(sun_space, angle, t)));
+  put(float(phi_order_of_open_end(space, angle)));
+  put(float(phi_from_order(space, Order(0.6f * float(alpha)))));
+  put(float(phi_from_order(sun_space, Order(t))));
+  put_cells_of_alpha(space, k_equal_alpha, alpha);
+  put_cells_of_alpha(space, k_root_of_alpha, alpha);
+  put_cells_of_alpha(space, k_root_of_complement, alpha);
   PhiCells own = own_cells(complement, 1.0f + g, Cell(512.0f), 0.3f * complement, 0.6f * complement);
-  put(outputs, at, own.first);
-  put(outputs, at, own.per_cell);
-  put(outputs, at, float(phi_of_cell(own, Cell(100.0f * float(alpha)))));
-  put(outputs, at, float(cell_of_phi(own, phi)));
+  put(own.first);
+  put(own.per_cell);
+  put(float(phi_of_cell(own, Cell(100.0f * float(alpha)))));
+  put(float(cell_of_phi(own, phi)));
 
-  put(outputs, at, to_light(light, a));
-  put(outputs, at, light_above(light, ray, g));
+  put(to_light(light, a));
+  put(light_above(light, ray, g));
   // A layer whose top lies above the eye or below it; a lamp and a sun above its top.
   MediumBlock layer = medium;
   layer.top = g;
@@ -274,53 +277,53 @@ FUNCTION void call_every_function(IN(Inputs) inputs, OUT(Outputs) outputs) {
   LightBlock sun = light;
   sun.is_near = 0.0f;
   sun.from_eye = normalize(vec3(l.x, abs(l.y) + 0.2f, l.z));
-  put(outputs, at, part_in_medium(layer, ray.y, t));
-  put(outputs, at, light_path(layer, lamp, ray));
-  put(outputs, at, light_path(layer, sun, ray));
-  put(outputs, at, plane_share(light, a));
-  put(outputs, at, plane_uv(light, a));
+  put(part_in_medium(layer, ray.y, t));
+  put(light_path(layer, lamp, ray));
+  put(light_path(layer, sun, ray));
+  put(plane_share(light, a));
+  put(plane_uv(light, a));
   vec4 clip_point = plane_clip(light, a);
-  put(outputs, at, vec3(clip_point.x, clip_point.y, clip_point.z));
-  put(outputs, at, clip_point.w);
-  put(outputs, at, plane_z(light, 0.25f * float(alpha)));
+  put(vec3(clip_point.x, clip_point.y, clip_point.z));
+  put(clip_point.w);
+  put(plane_z(light, 0.25f * float(alpha)));
   SunRay sun_ray_of_layer = sun_ray(layer, sun, ray, t);
-  put(outputs, at, sun_ray_of_layer.entry);
-  put(outputs, at, sun_ray_of_layer.exit);
-  put(outputs, at, sun_ray_of_layer.path);
-  put(outputs, at, sun_ray_of_layer.slope);
-  put(outputs, at, mean_decay(t));
+  put(sun_ray_of_layer.entry);
+  put(sun_ray_of_layer.exit);
+  put(sun_ray_of_layer.path);
+  put(sun_ray_of_layer.slope);
+  put(mean_decay(t));
   SunRay falling;
   falling.entry = 0.0f;
   falling.exit = t;
   falling.path = t;
   falling.slope = g;
-  put(outputs, at, integrate_sun_run(medium, falling, 0.2f * t, 0.9f * t));
-  put(outputs, at, sun_scale(light, medium, k_henyey_greenstein, alpha));
+  put(integrate_sun_run(medium, falling, 0.2f * t, 0.9f * t));
+  put(sun_scale(light, medium, k_henyey_greenstein, alpha));
 
   // What panels follow; a lamp above a layer; a spot with a range.
   float growth = depth_growth(space, 0.2f, complement, phi);
-  put(outputs, at, growth);
-  put(outputs, at, float(panel_length_by_growth(medium, k_hoffman_preetham, complement, phi, growth)));
-  put(outputs, at, float(straight_length_by_growth(medium, k_hoffman_preetham, complement, phi, growth)));
+  put(growth);
+  put(float(panel_length_by_growth(medium, k_hoffman_preetham, complement, phi, growth)));
+  put(float(straight_length_by_growth(medium, k_hoffman_preetham, complement, phi, growth)));
   LayerRay in_layer;
   in_layer.direction = ray;
   in_layer.outward = unit_or(ray - dot(ray, l) * l, space.u);
   in_layer.alpha = alpha;
   in_layer.complement = complement;
   in_layer.entry = 0.0f;
-  put(outputs, at, float(sine_of_scattering(in_layer, phi)));
-  put(outputs, at, cone_share(light, ray));
-  put(outputs, at, range_share(light, t));
-  put(outputs, at, float(half_width_of_cone(light.cone_outer, 0.5f * g)));
+  put(float(sine_of_scattering(in_layer, phi)));
+  put(cone_share(light, ray));
+  put(range_share(light, t));
+  put(float(half_width_of_cone(light.cone_outer, 0.5f * g)));
   LitPart part_lit = part_in_reach(space, light, k_reach_of_cone, in_layer, Angle(0.0f), complement);
-  put(outputs, at, float(part_lit.from));
-  put(outputs, at, float(part_lit.to));
-  put(outputs, at, float(part_lit.inner_from));
-  put(outputs, at, float(part_lit.inner_to));
+  put(float(part_lit.from));
+  put(float(part_lit.to));
+  put(float(part_lit.inner_from));
+  put(float(part_lit.inner_to));
   part_lit = part_in_reach(space, light, k_reach_of_range, in_layer, Angle(0.0f), complement);
-  put(outputs, at, float(part_lit.from));
-  put(outputs, at, float(part_lit.to));
-  put(outputs, at, reach_share(space, light, k_reach_of_cone, in_layer, phi));
+  put(float(part_lit.from));
+  put(float(part_lit.to));
+  put(reach_share(space, light, k_reach_of_cone, in_layer, phi));
 }
 
 #endif

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <ostream>
+#include <set>
+#include <span>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -62,6 +64,27 @@ TEST(EveryShader, BindsOnlyWhatEveryDriverHas) {
       EXPECT_LE(resource.last_binding, highest_binding(resource.kind))
           << name << ": " << testing::PrintToString(resource);
   }
+}
+
+/// How many values that depend on a specialization constant a module chooses among by the way control came: `constant || condition`.
+int chosen_constants(std::span<const std::uint32_t> words) {
+  enum { k_spec_constant_true = 48, k_spec_constant_op = 52, k_phi = 245 };
+  std::set<std::uint32_t> constants;
+  int count = 0;
+  for (std::size_t at = 5; at < words.size(); at += words[at] >> 16) {
+    const std::uint32_t opcode = words[at] & 0xffff, length = words[at] >> 16;
+    if (opcode >= k_spec_constant_true && opcode <= k_spec_constant_op) constants.insert(words[at + 2]);
+    if (opcode != k_phi) continue;
+    for (std::size_t value = at + 3; value < at + length; value += 2)
+      count += static_cast<int>(constants.count(words[value]));
+  }
+  return count;
+}
+
+// NVIDIA's driver (580.159) takes such a value for false where it is true.
+TEST(EveryShader, AsksSpecializationConstantsInConditionsOfTheirOwn) {
+  EXPECT_EQ(chosen_constants(k_resources_comp), 1) << "the test sees nothing";
+  for (const auto& [name, words] : k_every_shader) EXPECT_EQ(chosen_constants(words), 0) << name;
 }
 
 }  // namespace

@@ -5,8 +5,10 @@
 #include <functional>
 #include <iterator>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "quality/truth.h"
 #include "scene/error.h"
@@ -19,7 +21,8 @@ namespace fs = std::filesystem;
 
 class Cache : public testing::Test {
  protected:
-  Cache() : folder_(fs::path(testing::TempDir()) / "airlight_truth_cache") {
+  // Tests may run at the same time.
+  Cache() : folder_(fs::path(testing::TempDir()) / fmt::format("airlight_truth_cache_{}", getpid())) {
     fs::remove_all(folder_);
     geometry_.positions = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
     geometry_.triangles = {{0, 1, 2}};

@@ -15,6 +15,7 @@ layout(location = 0) uniform uint plain;
 
 void main() {
   uint i = gl_GlobalInvocationID.x + k_first + plain;
+  if (k_first == 7u || i + plain == 9u) return;
   written[i] = read[i] + offset + texelFetch(texels, int(i)).r;
   imageStore(image_written, ivec3(i), imageLoad(image_read, ivec2(i)) + texelFetch(pictures[i & 3u], ivec2(0), 0));
 }
