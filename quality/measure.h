@@ -69,8 +69,9 @@ class Measurer {
     frame::FrameImages images;
   };
 
-  /// A frame's time is the median over whole frames, after one frame of warm-up and a few with timed stages.
-  /// Where the first frame takes more than 2 s it is the only one. Each frame draws all of its own.
+  /// A frame's time is the median over whole frames, after a warm-up and a few with timed stages. The warm-up
+  /// is one frame, on a GPU as many as take 0.3 s: one that has rested runs its first frames several times
+  /// slower. Where the first frame takes more than 2 s it is the only one. Each frame draws all of its own.
   /// @param frames timed, after warm-up
   Measurement measure(const VolumeChoice& volume, const SurfaceChoice& surface, int frames);
 
@@ -95,6 +96,7 @@ class Measurer {
 
  private:
   struct TimedFrame;
+  void warm_up(frame::SurfaceShadow& shadow, frame::Airlight& airlight);
   TimedFrame render_timed(frame::SurfaceShadow& shadow, frame::Airlight& airlight, bool with_stages,
                           frame::Resting resting = frame::Resting::redrawn);
   std::map<std::string, std::int64_t> bytes_of(const frame::SurfaceShadow& shadow,

@@ -77,7 +77,7 @@ code { display: block; overflow-x: auto; background: #f4f4f4; padding: .4em .7em
 
 constexpr const char* k_definitions = R"(<dl>
 <dt>frame [ms]</dt><dd>Wall-clock time of a whole frame from the first draw until the GPU is done, file writing left out: median over the
-frames in the next column, after one frame of warm-up. Where the first frame took more than 2 s it is the only one.</dd>
+frames in the next column, after one frame of warm-up, on a GPU 0.3 s of them. Where the first frame took more than 2 s it is the only one.</dd>
 <dt>march/frame</dt><dd>Frame time of the fastest <em>reference-march</em> row, divided by this row's frame time.</dd>
 <dt>Mrays/s</dt><dd>Occlusion rays for airlight, in millions, per second of tracing and integrating on all cores.</dd>
 <dt>same-surface rrmse [%], left out [pixels]</dt><dd>The same without the pixels where rasterisation, which snaps corners to 1/256

@@ -171,7 +171,8 @@ TEST(Texture, IsSampledLinearlyBetweenTexelsAndLevels) {
   // Of two texels: (4, 8, 12)/16 is texel 0, the mean of 0 and 1, and texel 1; halfway between the levels.
   const std::array<float, 3> between = sampled.at({4, 8, 12}, 1);
   EXPECT_EQ(between[0], 510.25f);
-  EXPECT_NEAR(between[1], 610.25f, 0.25f) << "half-precision texels, which NVIDIA's GPUs filter to half precision";
+  EXPECT_NEAR(between[1], 610.25f, 0.25f)
+      << "half-precision texels, which NVIDIA's GPUs filter to half precision";
   EXPECT_EQ(between[2], 685.25f);
   EXPECT_EQ(sampled.at({0, 2, 2}, 0)[0], 0.0f) << "clamped";
   sampled.all()[0]->sample_linearly(Wrap::repeat);

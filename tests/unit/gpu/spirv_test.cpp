@@ -66,7 +66,8 @@ TEST(EveryShader, BindsOnlyWhatEveryDriverHas) {
   }
 }
 
-/// How many values that depend on a specialization constant a module chooses among by the way control came: `constant || condition`.
+/// How many values that depend on a specialization constant a module chooses among by the way control came:
+/// `constant || condition`.
 int chosen_constants(std::span<const std::uint32_t> words) {
   enum { k_spec_constant_true = 48, k_spec_constant_op = 52, k_phi = 245 };
   std::set<std::uint32_t> constants;
