@@ -39,6 +39,10 @@ struct FrameInputs {
   }
   /// Whether it is one image on a plane, not a cube.
   bool shadow_map_is_plane() const { return resources.shadow_plane().has_value(); }
+  /// rgba32f: what each pixel shades (surface_points.h).
+  const gpu::Texture& surface_points() const { return resources.surface_points(triangles, timer); }
+  /// r32ui: in which plane each triangle lies.
+  const gpu::TexelView& triangle_planes() const { return resources.triangle_planes(timer); }
   const std::vector<std::uint32_t>& triangles_at_light() const { return resources.triangles_at_light(); }
   const gpu::Texture* light_texture() const { return resources.light_texture(); }
   const scene::Components& components() const { return resources.components(timer); }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "frame/blocks.h"
+#include "scene/coplanar.h"
 #include "scene/error.h"
 #include "scene/light_texture.h"
 
@@ -21,6 +22,7 @@ bool Resources::OfMap::operator==(const OfMap& other) const {
 
 void Resources::begin_frame(Resting resting) {
   shadow_map_bytes_ = 0;
+  used_surface_points_ = false;
   std::erase_if(light_textures_, [](const auto& texture) { return !texture.second.is_used; });
   for (auto& texture : light_textures_) texture.second.is_used = false;
   resting_ = resting;
@@ -30,6 +32,7 @@ void Resources::begin_frame(Resting resting) {
 void Resources::begin_light(const scene::Light& light, const scene::CameraFrame& camera) {
   light_ = &light;
   camera_ = camera;
+  has_surface_points_ = false;
   shadow_plane_ = fit_shadow_plane(light, camera, scene_.box(), shadow_map_size_);
   triangles_at_light_.clear();
   light_near_ = 0.0f;
@@ -87,6 +90,32 @@ const gpu::Texture& Resources::shadow_map(double reach, gpu::StageTimer& timer) 
   return shadow_map_->depth();
 }
 
+const gpu::Texture& Resources::surface_points(const gpu::Texture& triangles, gpu::StageTimer& timer) {
+  if (has_surface_points_) return surface_points_;
+  if (!surface_point_pass_) surface_point_pass_.emplace();
+  if (surface_points_.size() != triangles.size())
+    surface_points_ = gpu::Texture(gpu::Format::rgba32f, triangles.size());
+  timer.time("surface_points",
+             [&] { surface_point_pass_->run(scene_, triangles, origin(), surface_points_); });
+  has_surface_points_ = true;
+  used_surface_points_ = true;
+  return surface_points_;
+}
+
+const gpu::TexelView& Resources::triangle_planes(gpu::StageTimer& timer) {
+  if (triangle_plane_texels_) return *triangle_plane_texels_;
+  timer.time("triangle_planes", [&] {
+    const std::vector<std::uint32_t> of_geometry = scene::planes_of(geometry_);
+    std::vector<std::uint32_t> planes;
+    planes.reserve(of_geometry.size());
+    for (const std::uint32_t triangle : scene_.order()) planes.push_back(of_geometry[triangle]);
+    triangle_planes_ = gpu::Buffer::from(std::span<const std::uint32_t>(planes));
+    triangle_plane_texels_.emplace(context_.limits(), triangle_planes_, gpu::Format::r32ui,
+                                   "the model's triangles");
+  });
+  return *triangle_plane_texels_;
+}
+
 const scene::Edges& Resources::edges(gpu::StageTimer& timer) {
   if (!edges_) timer.time("edges", [&] { edges_ = scene::find_edges(geometry_); });
   return *edges_;
@@ -103,6 +132,8 @@ const scene::Components& Resources::components(gpu::StageTimer& timer) {
 std::map<std::string, std::int64_t> Resources::bytes() const {
   std::map<std::string, std::int64_t> bytes = {{"scene", scene_.bytes()}};
   if (shadow_map_bytes_ > 0) bytes["shadow_map"] = shadow_map_bytes_;
+  if (triangle_plane_texels_) bytes["triangle_planes"] = triangle_planes_.bytes();
+  if (used_surface_points_) bytes["surface_points"] = surface_points_.bytes();
   for (const auto& [texture, on_gpu] : light_textures_)
     if (on_gpu.is_used) bytes["light_texture"] += on_gpu.texels.bytes();
   return bytes;

@@ -11,6 +11,7 @@
 #include "frame/scene_buffers.h"
 #include "frame/shadow_map.h"
 #include "frame/shadow_plane.h"
+#include "frame/surface_points.h"
 #include "gpu/texture.h"
 #include "gpu/timer.h"
 #include "scene/components.h"
@@ -63,6 +64,17 @@ class Resources {
   /// @throws scene::Error (driver) for one over the driver's limit
   const gpu::Texture& shadow_map(double reach, gpu::StageTimer& timer);
 
+  /// What each pixel shades: see SurfacePointPass. Stage `surface_points`.
+  /// @param triangles the frame's
+  const gpu::Texture& surface_points(const gpu::Texture& triangles, gpu::StageTimer& timer);
+
+  /// r32ui: in which plane each triangle lies (scene::planes_of), in the order of the scene's buffers. Stage
+  /// `triangle_planes`, once a scene.
+  const gpu::TexelView& triangle_planes(gpu::StageTimer& timer);
+
+  /// Where positions relative to the light start.
+  LightOrigin origin() const { return light_origin(*light_, camera_.eye); }
+
   /// rgba32f, by direction (light_texture.glsl); nullptr where the light has none.
   const gpu::Texture* light_texture() const {
     return light_->texture ? &light_textures_.at(light_->texture).texels : nullptr;
@@ -104,6 +116,13 @@ class Resources {
   OfMap of_map() const { return {*light_, shadow_plane_, light_near_, triangles_at_light_}; }
   std::optional<OfMap> drawn_plane_map_, drawn_cube_;  ///< none where there is nothing that could be kept
   std::int64_t shadow_map_bytes_ = 0;                  ///< of those used in this frame
+
+  gpu::Buffer triangle_planes_;
+  std::optional<gpu::TexelView> triangle_plane_texels_;
+  std::optional<SurfacePointPass> surface_point_pass_;
+  gpu::Texture surface_points_;
+  bool has_surface_points_ = false;   ///< of this light
+  bool used_surface_points_ = false;  ///< in this frame
 
   struct LightTexels {
     gpu::Texture texels;

@@ -48,6 +48,8 @@ class SceneBuffers {
 
   /// A number that no other scene on the GPU has or had: what is made from one is kept by it.
   std::uint64_t id() const { return id_; }
+  /// order()[i] is which triangle of the geometry comes i-th here.
+  const std::vector<std::uint32_t>& order() const { return clusters_.order; }
   std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(clusters_.order.size()); }
   std::int64_t bytes() const;
 

@@ -27,6 +27,9 @@ class ScreenPass {
   /// Writes images of one size, in the order of the shader's outputs.
   void run(const std::vector<gpu::Attachment>& images) const;
 
+  /// To set its uniforms.
+  const gpu::Pipeline& pipeline() const { return pipeline_; }
+
  private:
   gpu::Pipeline pipeline_;
   gpu::Handle<gpu::delete_vertex_array> no_vertices_;

@@ -195,8 +195,16 @@ void Pipeline::set(int location, std::uint32_t value) const {
   glProgramUniform1ui(handle_.get(), location, value);
 }
 
+void Pipeline::set(int location, float value) const {
+  glProgramUniform1f(handle_.get(), location, value);
+}
+
 void Pipeline::set(int location, glm::uvec2 value) const {
   glProgramUniform2ui(handle_.get(), location, value.x, value.y);
+}
+
+void Pipeline::set(int location, glm::uvec3 value) const {
+  glProgramUniform3ui(handle_.get(), location, value.x, value.y, value.z);
 }
 
 void Pipeline::set(int location, glm::uvec4 value) const {

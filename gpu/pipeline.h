@@ -95,7 +95,9 @@ class Pipeline {
   /// Sets a uniform, outside of blocks, that the program uses at `location`, for all later runs.
   void set(int location, int value) const;
   void set(int location, std::uint32_t value) const;
+  void set(int location, float value) const;
   void set(int location, glm::uvec2 value) const;
+  void set(int location, glm::uvec3 value) const;
   void set(int location, glm::uvec4 value) const;
   void set(int location, glm::vec3 value) const;
 

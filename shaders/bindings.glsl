@@ -26,6 +26,12 @@ CONST uint k_materials_unit = 11u;      // … and which a triangle has
 CONST uint k_grid_unit = 12u;           // epipolar/grid.glsl
 CONST uint k_table_unit = 13u;          // media/vsv_table.glsl
 CONST uint k_first_shadowed_unit = 14u; // epipolar/grid.h
+// Of surface shadows, which are asked for when no grid and no table is bound: surface_shadows/occluders.glsl, …
+CONST uint k_insertion_order_unit = 7u;  // … a tree's triangles, …
+CONST uint k_occluders_unit = 12u;
+CONST uint k_triangle_planes_unit = 13u;
+CONST uint k_tree_planes_unit = 14u;  // … its planes, …
+CONST uint k_tree_links_unit = 15u;   // … and where they lead: surface_shadows/top_tree.glsl
 
 // Storage buffers
 CONST uint k_phi_range_storage = 0u;  // epipolar/phi_range.glsl
@@ -35,5 +41,8 @@ CONST uint k_planes_storage = 3u;
 CONST uint k_queue_storage = 4u;      // epipolar/triangle_queue.glsl
 CONST uint k_scratch_storage = 5u;
 CONST uint k_table_storage = 6u;
+CONST uint k_occluders_storage = 1u;  // as above
+CONST uint k_tree_planes_storage = 2u;
+CONST uint k_tree_links_storage = 3u;
 
 #endif

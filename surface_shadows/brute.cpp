@@ -1,0 +1,32 @@
+#include "surface_shadows/brute.h"
+
+#include "frame/blocks.h"
+
+#include "spirv/surface_shadows/brute_frag.h"
+
+namespace airlight::surface_shadows {
+
+Brute::Brute() : pass_(k_brute_frag) {}
+
+void Brute::query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) {
+  const gpu::Texture& points = inputs.surface_points();
+  inputs.triangle_planes();
+  inputs.timer.time("surface_build", [&] { occluders_.build(inputs); });
+  inputs.timer.time("surface_query", [&] {
+    occluders_.bind(inputs);
+    points.bind_sampler(shaders::k_surface_unit);
+    inputs.triangles.bind_sampler(shaders::k_triangle_unit);
+    pass_.pipeline().set(0, occluders_.count());
+    pass_.pipeline().set(1, occluders_.scale());
+    pass_.run({visibility});
+  });
+}
+
+frame::SurfaceMethod brute_method() {
+  return frame::describe<frame::SurfaceShadow, frame::NoOptions>(
+      "brute", "every triangle is asked whether it hides the pixel's point: exact, for small scenes",
+      {.is_exact = true}, {},
+      [](const gpu::Context&, const frame::NoOptions&) { return std::make_unique<Brute>(); });
+}
+
+}  // namespace airlight::surface_shadows

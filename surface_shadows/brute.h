@@ -1,0 +1,24 @@
+#pragma once
+
+#include "frame/method.h"
+#include "frame/screen_pass.h"
+#include "surface_shadows/occluders.h"
+
+namespace airlight::surface_shadows {
+
+/// `brute`: asks the predicate of every triangle, in the order of their numbers. What other exact methods
+/// must answer alike, bit for bit.
+class Brute : public frame::SurfaceShadow {
+ public:
+  Brute();
+  void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override;
+  std::map<std::string, std::int64_t> bytes() const override { return {{"occluders", occluders_.bytes()}}; }
+
+ private:
+  Occluders occluders_;
+  frame::ScreenPass pass_;
+};
+
+frame::SurfaceMethod brute_method();
+
+}  // namespace airlight::surface_shadows

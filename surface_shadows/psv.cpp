@@ -1,0 +1,129 @@
+#include "surface_shadows/psv.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <numeric>
+#include <random>
+
+#include "frame/blocks.h"
+
+#include "spirv/surface_shadows/psv_insert_comp.h"
+#include "spirv/surface_shadows/psv_planes_comp.h"
+#include "spirv/surface_shadows/psv_query_frag.h"
+
+namespace airlight::surface_shadows {
+
+frame::ScreenPass Psv::query_pass(bool counts) const {
+  return frame::ScreenPass(
+      k_psv_query_frag,
+      std::array{gpu::Constant(0, counts ? 1u : 0u), gpu::Constant(1, options_.wedge == Wedge::on ? 1u : 0u),
+                 gpu::Constant(2, static_cast<std::uint32_t>(options_.stack))});
+}
+
+Psv::Psv(const PsvOptions& options)
+    : options_(options),
+      planes_program_(gpu::Pipeline::compute(k_psv_planes_comp)),
+      insert_program_(gpu::Pipeline::compute(k_psv_insert_comp)),
+      query_(query_pass(false)) {}
+
+void Psv::build(const frame::FrameInputs& inputs) {
+  const std::uint32_t count = inputs.scene.triangle_count();
+  if (scene_ != inputs.scene.id()) {
+    const std::int64_t nodes = 4 * std::int64_t{count}, node = sizeof(glm::vec4);
+    require_storage_block(inputs.context, node * (nodes + 1), "the tree of the model's triangles");
+    std::vector<std::uint32_t> order(count);
+    std::iota(order.begin(), order.end(), 0u);
+    if (options_.order == InsertionOrder::random)
+      std::shuffle(order.begin(), order.end(), std::mt19937(static_cast<std::uint32_t>(options_.seed)));
+    order_ = gpu::Buffer::from(std::span<const std::uint32_t>(order));
+    planes_ = gpu::Buffer(node * nodes);
+    links_ = gpu::Buffer(node * (nodes + 1));
+    const gpu::Limits& limits = inputs.context.limits();
+    order_texels_ = {limits, order_, gpu::Format::r32ui, "the model's triangles"};
+    plane_texels_ = {limits, planes_, gpu::Format::rgba32f, "the tree of the model's triangles"};
+    link_texels_ = {limits, links_, gpu::Format::rgba32ui, "the tree of the model's triangles"};
+    scene_ = inputs.scene.id();
+  }
+  occluders_.build(inputs);
+  if (count == 0) return;
+  occluders_.bind(inputs);
+  planes_.bind_storage(shaders::k_tree_planes_storage);
+  links_.bind_storage(shaders::k_tree_links_storage);
+  planes_program_.set(0, count);
+  planes_program_.dispatch({count, 1, 1});
+
+  order_texels_.bind_sampler(shaders::k_insertion_order_unit);
+  plane_texels_.bind_sampler(shaders::k_tree_planes_unit);
+  insert_program_.set(0, count);
+  insert_program_.set(1, occluders_.reach());
+  insert_program_.dispatch({count, 1, 1});
+}
+
+void Psv::run(const frame::ScreenPass& pass, const frame::FrameInputs& inputs,
+              const gpu::Texture& image) const {
+  occluders_.bind(inputs);
+  plane_texels_.bind_sampler(shaders::k_tree_planes_unit);
+  link_texels_.bind_sampler(shaders::k_tree_links_unit);
+  inputs.surface_points().bind_sampler(shaders::k_surface_unit);
+  inputs.triangles.bind_sampler(shaders::k_triangle_unit);
+  pass.pipeline().set(0, glm::uvec3(occluders_.count(), std::bit_cast<std::uint32_t>(occluders_.scale()),
+                                    std::bit_cast<std::uint32_t>(occluders_.reach())));
+  pass.run({image});
+}
+
+void Psv::query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) {
+  // Stages of their own.
+  inputs.surface_points();
+  inputs.triangle_planes();
+  inputs.timer.time("surface_build", [&] { build(inputs); });
+  inputs.timer.time("surface_query", [&] { run(query_, inputs, visibility); });
+}
+
+void Psv::count_nodes(const frame::FrameInputs& inputs, const gpu::Texture& counts) {
+  run(query_pass(true), inputs, counts);
+}
+
+std::map<std::string, std::int64_t> Psv::bytes() const {
+  return {{"occluders", occluders_.bytes()}, {"tree", planes_.bytes() + links_.bytes() + order_.bytes()}};
+}
+
+frame::SurfaceMethod psv_method() {
+  using Options = PsvOptions;
+  return frame::describe<frame::SurfaceShadow, Options>(
+      "psv", "partitioned shadow volumes: a ternary tree over the triangles' shadows, exact",
+      {.is_exact = true},
+      {frame::word_option<Options, Wedge>(
+           {.name = "wedge",
+            .meaning = "whether what a plane intersects is left out where the point is far from the plane",
+            .quality = "none",
+            .cost = "off visits several times the nodes",
+            .sweep = {"on", "off"}},
+           {{"on", "bounded by its angle with the plane"}, {"off", "always visited"}}, &Options::wedge),
+       frame::word_option<Options, InsertionOrder>(
+           {.name = "order",
+            .meaning = "in which order triangles are inserted",
+            .quality = "none",
+            .cost = "neighbours in a row make a deep tree",
+            .sweep = {"random", "file"}},
+           {{"random", "shuffled once a scene"},
+            {"file", "as neighbours follow each other in the scene's buffers"}},
+           &Options::order),
+       frame::count_option<Options>({.name = "seed",
+                                     .meaning = "of the random order",
+                                     .quality = "none",
+                                     .cost = "a few percent, by chance",
+                                     .sweep = {"1", "2", "3"}},
+                                    {.least = 0}, &Options::seed),
+       frame::count_option<Options>(
+           {.name = "stack",
+            .meaning = "nodes that are kept for later, a pixel; where there are more, all "
+                       "triangles are asked",
+            .quality = "none",
+            .cost = "registers, or seconds for pixels that need more",
+            .sweep = {"24", "32", "64"}},
+           {.least = 1, .most = 128}, &Options::stack)},
+      [](const gpu::Context&, const Options& options) { return std::make_unique<Psv>(options); });
+}
+
+}  // namespace airlight::surface_shadows

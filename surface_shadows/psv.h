@@ -1,0 +1,50 @@
+#pragma once
+
+#include <vector>
+
+#include "frame/method.h"
+#include "frame/screen_pass.h"
+#include "surface_shadows/occluders.h"
+
+namespace airlight::surface_shadows {
+
+enum class InsertionOrder { random, file };
+enum class Wedge { on, off };
+
+struct PsvOptions {
+  Wedge wedge = Wedge::on;
+  InsertionOrder order = InsertionOrder::random;
+  int seed = 1;    ///< of the random order
+  int stack = 32;  ///< nodes that a pixel's stack holds
+};
+
+/// `psv`: partitioned shadow volumes, a ternary tree over the triangles' shadow volumes that is made anew
+/// each frame on the GPU and asked once a pixel. Exact: whatever its options, it answers what `brute` does.
+/// Based on: see shaders/surface_shadows/top_tree.glsl.
+class Psv : public frame::SurfaceShadow {
+ public:
+  explicit Psv(const PsvOptions& options);
+  void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override;
+  std::map<std::string, std::int64_t> bytes() const override;
+
+  /// How many nodes each pixel visited, instead of visibility, of the tree that the last `query` made.
+  /// @param counts r32f
+  void count_nodes(const frame::FrameInputs& inputs, const gpu::Texture& counts);
+
+ private:
+  void build(const frame::FrameInputs& inputs);
+  void run(const frame::ScreenPass& pass, const frame::FrameInputs& inputs, const gpu::Texture& image) const;
+  frame::ScreenPass query_pass(bool counts) const;
+
+  PsvOptions options_;
+  Occluders occluders_;
+  gpu::Pipeline planes_program_, insert_program_;
+  frame::ScreenPass query_;
+  std::uint64_t scene_ = 0;  ///< SceneBuffers::id
+  gpu::Buffer order_, planes_, links_;
+  gpu::TexelView order_texels_, plane_texels_, link_texels_;
+};
+
+frame::SurfaceMethod psv_method();
+
+}  // namespace airlight::surface_shadows

@@ -1,0 +1,241 @@
+#include "surface_shadows/psv.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <ostream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "frame/frame.h"
+#include "frame/none.h"
+#include "frame/point_reader.h"
+#include "scene/import.h"
+#include "support/frame_probe.h"
+#include "support/gpu_context.h"
+#include "support/random.h"
+#include "support/scenes.h"
+#include "support/shared.h"
+#include "surface_shadows/brute.h"
+
+/// Exact surface shadows: trees answer what asking every triangle does, bit for bit.
+namespace airlight::surface_shadows {
+namespace {
+
+using tests::builtin;
+using tests::gpu_context;
+
+std::vector<float> visibility(const scene::Geometry& geometry, const scene::View& view,
+                              frame::SurfaceShadow& method) {
+  frame::Frame frame(gpu_context(), geometry, 16);
+  frame::NoAirlight no_airlight;
+  gpu::StageTimer timer(nullptr);
+  frame.render(view, method, no_airlight, timer);
+  return frame.read().visibility.at(0);
+}
+
+std::vector<float> by_psv(const scene::Geometry& geometry, const scene::View& view,
+                          const PsvOptions& options) {
+  Psv psv(options);
+  return visibility(geometry, view, psv);
+}
+
+std::vector<float> by_brute(const scene::Geometry& geometry, const scene::View& view) {
+  Brute brute;
+  return visibility(geometry, view, brute);
+}
+
+std::size_t count_lit(const std::vector<float>& visibility) {
+  return static_cast<std::size_t>(std::count(visibility.begin(), visibility.end(), 1.0f));
+}
+
+/// Triangles of all sizes in a box around the origin, some of them twice, on a floor.
+scene::Geometry soup(int count) {
+  tests::Random random(5);
+  scene::Geometry geometry;
+  tests::add_quad(geometry, {-6, -2, -6}, {12, 0, 0}, {0, 0, 12});
+  for (int i = 0; i < count; ++i) {
+    const glm::dvec3 corner = {random.uniform(-2, 2), random.uniform(-2, 1.5), random.uniform(-2, 2)};
+    const double size = random.logarithmic(0.01, 1.5);
+    const glm::vec3 a(corner), b(corner + size * random.direction()), c(corner + size * random.direction());
+    tests::add_triangle(geometry, a, b, c);
+    if (i % 10 == 0) tests::add_triangle(geometry, c, b, a);
+  }
+  return geometry;
+}
+
+struct Case {
+  std::string name;
+  scene::Geometry geometry;
+  scene::View view;
+};
+
+scene::View view_of_soup(const scene::Light& light) {
+  scene::View view;
+  view.camera.eye = {3.5, 2.5, 5};
+  view.camera.target = {0, -0.5, 0};
+  view.lights = {light};
+  view.size = {64, 48};
+  return view;
+}
+
+const std::vector<Case>& cases() {
+  static const std::vector<Case> all = [] {
+    std::vector<Case> cases;
+    for (const char* name : {"cornell", "sphere"})
+      cases.push_back({name, builtin(name).geometry, tests::view_of(builtin(name), {64, 48})});
+    const scene::Geometry triangles = soup(1500);
+    const auto lamp = [](glm::dvec3 position) { return scene::point_light("", position, glm::vec3(1e12f)); };
+    cases.push_back({"soup above", triangles, view_of_soup(lamp({1, 4, 1}))});
+    cases.push_back({"soup inside", triangles, view_of_soup(lamp({0.1, -0.3, 0.2}))});
+    cases.push_back({"soup grazing", triangles, view_of_soup(lamp({5, -1.99, 1}))});
+    cases.push_back({"soup far", triangles, view_of_soup(lamp({3e4, 5e4, 1e4}))});
+    cases.push_back({"soup sun", triangles, view_of_soup(scene::sun("", {0.3, 1, 0.2}, glm::vec3(1.0f)))});
+    cases.push_back(
+        {"soup low sun", triangles, view_of_soup(scene::sun("", {1, 0.01, 0.3}, glm::vec3(1.0f)))});
+    return cases;
+  }();
+  return all;
+}
+
+class Psvs : public testing::TestWithParam<std::size_t> {
+ protected:
+  const Case& given() const { return cases()[GetParam()]; }
+};
+
+TEST_P(Psvs, AnswerWhatAskingEveryTriangleDoes) {
+  const std::vector<float> expected = by_brute(given().geometry, given().view);
+  EXPECT_GT(count_lit(expected), expected.size() / 100) << given().name;
+  EXPECT_LT(count_lit(expected), expected.size()) << given().name;
+  for (int seed = 0; seed < 3; ++seed)
+    EXPECT_TRUE(by_psv(given().geometry, given().view, {.seed = seed}) == expected) << given().name << seed;
+  EXPECT_TRUE(by_psv(given().geometry, given().view, {.wedge = Wedge::off}) == expected) << given().name;
+  EXPECT_TRUE(by_psv(given().geometry, given().view, {.order = InsertionOrder::file}) == expected);
+  EXPECT_TRUE(by_psv(given().geometry, given().view, {.stack = 1}) == expected)
+      << given().name << ": a stack that overflows";
+}
+
+TEST_P(Psvs, DoNotDependOnHowTrianglesAreWritten) {
+  const std::vector<float> expected = by_psv(given().geometry, given().view, {});
+  scene::Geometry other = given().geometry;
+  for (std::size_t i = 0; i < other.triangles.size(); ++i) {
+    glm::uvec3& t = other.triangles[i];
+    t = i % 3 == 0 ? t : i % 3 == 1 ? glm::uvec3(t.y, t.z, t.x) : glm::uvec3(t.z, t.x, t.y);
+  }
+  std::reverse(other.triangles.begin(), other.triangles.end());
+  std::reverse(other.material_of_triangle.begin(), other.material_of_triangle.end());
+  const std::vector<float> written_otherwise = by_psv(other, given().view, {});
+  // The point that a pixel shades is rounded by the order of its triangle's corners.
+  std::size_t differing = 0;
+  for (std::size_t i = 0; i < expected.size(); ++i) differing += expected[i] != written_otherwise[i];
+  EXPECT_LE(differing, expected.size() / 1000) << given().name;
+}
+
+TEST_P(Psvs, DoNotDependOnScale) {
+  const std::vector<float> expected = by_psv(given().geometry, given().view, {});
+  for (const float scale : {1024.0f, 1.0f / 1024.0f}) {
+    scene::Geometry geometry = given().geometry;
+    for (glm::vec3& position : geometry.positions) position *= scale;
+    scene::View view = given().view;
+    view.camera.eye *= static_cast<double>(scale);
+    view.camera.target *= static_cast<double>(scale);
+    view.lights[0].position *= static_cast<double>(scale);
+    view.lights[0].intensity *= scale * scale;
+    EXPECT_TRUE(by_psv(geometry, view, {}) == expected) << given().name << ", × " << scale;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, Psvs, testing::Range(std::size_t{0}, std::size_t{8}));
+
+/// A closed mesh around the light: an icosahedron whose faces are cut in four, twice, so that most edges and
+/// vertices are inside of a face. Its corners are on no axis.
+scene::Geometry ball() {
+  const float g = 1.618034f;
+  std::vector<glm::vec3> corners = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0},
+                                    {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g},
+                                    {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
+  std::vector<glm::uvec3> faces = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                                   {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                                   {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                                   {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
+  for (glm::vec3& corner : corners) corner = glm::normalize(corner);
+  for (int cut = 0; cut < 2; ++cut) {
+    std::vector<glm::uvec3> cut_faces;
+    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+      const glm::vec3 at = glm::normalize(corners[std::min(a, b)] + corners[std::max(a, b)]);
+      const auto found = std::find(corners.begin(), corners.end(), at);
+      if (found != corners.end()) return static_cast<std::uint32_t>(found - corners.begin());
+      corners.push_back(at);
+      return static_cast<std::uint32_t>(corners.size() - 1);
+    };
+    for (const glm::uvec3& f : faces) {
+      const std::uint32_t ab = middle(f.x, f.y), bc = middle(f.y, f.z), ca = middle(f.z, f.x);
+      cut_faces.insert(cut_faces.end(), {{f.x, ab, ca}, {ab, f.y, bc}, {ca, bc, f.z}, {ab, bc, ca}});
+    }
+    faces = cut_faces;
+  }
+  scene::Geometry geometry;
+  geometry.materials.emplace_back();
+  geometry.positions = corners;
+  geometry.triangles = faces;
+  geometry.material_of_triangle.assign(faces.size(), 0);
+  return geometry;
+}
+
+// What the eye sees, between the corners and edges of a closed mesh around the light, is a wall beyond. Its
+// corners are those of the mesh, projected, so that rasterised points lie along the edges' planes.
+TEST(Psv, LeavesNoLightThroughEdgesOfAClosedMesh) {
+  scene::Geometry geometry = ball();
+  const std::size_t inner = geometry.triangles.size();
+  const auto count = static_cast<std::uint32_t>(geometry.positions.size());
+  for (std::uint32_t i = 0; i < count; ++i) geometry.positions.push_back(3.0f * geometry.positions[i]);
+  for (std::size_t i = 0; i < inner; ++i) geometry.triangles.push_back(geometry.triangles[i] + count);
+  geometry.material_of_triangle.assign(geometry.triangles.size(), 0);
+  scene::View view;
+  view.lights = {scene::point_light("", {0, 0, 0}, glm::vec3(1.0f))};
+  view.size = {96, 96};
+  view.camera.eye = {0, 0, 1.9};
+  view.camera.vertical_fov_degrees = 120;
+  for (const glm::dvec3 target : {glm::dvec3(0, 0, 5), glm::dvec3(5, 0, 1.8), glm::dvec3(0.3, 5, 2)}) {
+    view.camera.target = target;
+    const std::vector<float> seen = by_psv(geometry, view, {});
+    EXPECT_EQ(count_lit(seen), 0u);
+  }
+}
+
+TEST(Psv, OfAnEmptySceneAndOfAModelOfOneTriangle) {
+  const scene::Scene& empty = builtin("empty");
+  EXPECT_EQ(count_lit(by_psv(empty.geometry, tests::view_of(empty, {16, 16}), {})), 0u);
+  scene::Geometry one;
+  tests::add_triangle(one, {-1, -1, 0}, {1, -1, 0}, {0, 1, 0});
+  scene::View view;
+  view.camera.eye = {0, 0, 3};
+  view.camera.target = {0, 0, 0};
+  view.lights = {scene::point_light("", {1, 1, 2}, glm::vec3(1.0f))};
+  view.size = {16, 16};
+  EXPECT_GT(count_lit(by_psv(one, view, {})), 10u);
+  view.lights[0].position.z = -2;
+  EXPECT_EQ(count_lit(by_psv(one, view, {})), 0u) << "it turns its back to the light";
+}
+
+TEST(Psv, VisitsFewerNodesByItsWedges) {
+  const Case& given = cases()[2];
+  std::vector<double> mean;
+  for (const Wedge wedge : {Wedge::on, Wedge::off}) {
+    tests::look_into_frame(given.geometry, given.view, 16, [&](const frame::FrameInputs& inputs) {
+      Psv psv({.wedge = wedge});
+      const gpu::Texture visibility(gpu::Format::r32f, given.view.size),
+          counts(gpu::Format::r32f, given.view.size);
+      psv.query(inputs, visibility);
+      psv.count_nodes(inputs, counts);
+      const std::vector<float> nodes = counts.read<float>();
+      mean.push_back(std::accumulate(nodes.begin(), nodes.end(), 0.0) / static_cast<double>(nodes.size()));
+    });
+  }
+  EXPECT_GT(mean[0], 4.0);
+  EXPECT_LT(1.5 * mean[0], mean[1]);
+}
+
+}  // namespace
+}  // namespace airlight::surface_shadows
