@@ -128,6 +128,16 @@ inline std::vector<Corners> random_triangles(airlight::tests::Random& random, do
   return triangles;
 }
 
+/// Three vectors of whole coordinates below 2²² that span a volume of exactly 1, in that order, of terms of
+/// about 2⁶⁰: rows of a product of triangular matrices with a unit diagonal.
+inline Corners unit_volume(airlight::tests::Random& random) {
+  const auto whole = [&] { return std::floor(random.uniform(512, 1024)); };
+  const double p = whole(), q = whole(), r = whole(), u = whole(), v = whole(), w = whole();
+  const glm::dvec3 first(1, u, v), second(p, p * u + 1, p * v + w), third(q, q * u + r, q * v + r * w + 1);
+  const auto sheared = [](const glm::dvec3& row) { return glm::dvec3(row.x + row.y, row.y, row.z); };
+  return {sheared(second), sheared(third), sheared(first + second)};
+}
+
 /// Slats of several widths at many angles, the same at every call: a view ray crosses the shadow of dozens.
 inline scene::Geometry clutter(int slats) {
   scene::Geometry geometry;
