@@ -230,6 +230,38 @@ TEST(Psv, LeavesNoLightThroughEdgesOfAClosedMesh) {
   }
 }
 
+// Eye, light and the edges between the two halves of a fan lie in one plane, turned about so that no number
+// of it is round: along the image's middle column each point lies in that plane to rounding.
+TEST(Psv, LeavesNoLightInThePlaneOfManyEdges) {
+  tests::Random random(11);
+  for (int turn = 0; turn < 12; ++turn) {
+    const glm::dvec3 forward = random.direction();
+    const glm::dvec3 right = glm::normalize(glm::cross(forward, random.direction()));
+    const glm::dvec3 up = glm::cross(right, forward);
+    const auto at = [&](double x, double y, double z) { return glm::vec3(x * right + y * up + z * forward); };
+    scene::Geometry geometry;
+    for (int row = 0; row < 40; ++row) {
+      const double y = -2 + 0.1 * row;
+      for (const double side : {-1.0, 1.0}) {
+        tests::add_triangle(geometry, at(0, y, 2), at(0, y + 0.1, 2), at(side * 4, y + 0.05, 2));
+        tests::add_triangle(geometry, at(side * 4, y + 0.05, 2), at(0, y + 0.1, 2),
+                            at(side * 4, y + 0.15, 2));
+      }
+    }
+    const std::size_t occluders = geometry.triangles.size();
+    tests::add_triangle(geometry, at(-40, -40, 6), at(40, -40, 6), at(0, 60, 6));
+    scene::View view;
+    view.camera.eye = glm::dvec3(at(0, 0, 2.5));
+    view.camera.target = glm::dvec3(at(0, 0, 6));
+    view.camera.up = up;
+    view.camera.vertical_fov_degrees = 60;
+    view.lights = {scene::point_light("", glm::dvec3(at(0, 0.3, 0)), glm::vec3(1e3f))};
+    view.size = {9, 65};
+    const std::vector<float> seen = by_psv(geometry, view, {.seed = turn});
+    EXPECT_EQ(count_lit(seen), 0u) << turn << ", " << occluders << " triangles";
+  }
+}
+
 TEST(Psv, OfAnEmptySceneAndOfAModelOfOneTriangle) {
   const scene::Scene& empty = builtin("empty");
   EXPECT_EQ(count_lit(by_psv(empty.geometry, tests::view_of(empty, {16, 16}), {})), 0u);
