@@ -1,13 +1,14 @@
 #!/bin/sh
 # Tests and measures Airlight on this machine's OpenGL driver: `./measure.sh [FIGURES.md]`, in a folder that
 # tests/device/pack.sh made. Writes one file as it goes, so that what was measured before an interruption is there.
-# SIZES="512 1024": the images' sides. LIMIT=300: seconds that one program may take.
+# SIZES="512 1024": the images' sides. TESTS='*_test': which test programs. LIMIT=300: seconds that one program may take.
 # Exit: 0 done, 1 a test failed or a program did; the file says which.
 pack=$(cd "$(dirname "$0")" && pwd)
 figures=${1:-figures.md}
 case $figures in /*) ;; *) figures=$PWD/$figures ;; esac
 sizes=${SIZES:-512 1024}
 limit=${LIMIT:-300}
+tests=${TESTS:-*_test}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
@@ -40,7 +41,7 @@ say
 # Each program in parts, all at once, as ctest runs them: a lent machine has many processors and little time.
 parts=$((($(nproc) + 3) / 4))
 start=$(now)
-for program in "$pack"/bin/*_test; do
+for program in "$pack"/bin/$tests; do
   part=0
   while [ "$part" -lt "$parts" ]; do
     name=$(basename "$program").$part
@@ -58,7 +59,7 @@ say "| program | passed | failed | skipped | exit of each part |"
 say "|---|---:|---:|---:|---|"
 # lines PATTERN PROGRAM: how many lines of its parts' outputs match.
 lines() { cat "$2".*.log | grep -c "$1"; }
-for program in "$pack"/bin/*_test; do
+for program in "$pack"/bin/$tests; do
   name=$(basename "$program")
   grep -qvx 0 "$name".*.code && status=1
   # A test that was skipped counts as passed in GoogleTest's own sum.
@@ -119,9 +120,29 @@ for size in $sizes; do
     compare window --size "${size}x$size" --frames 5 --light-position=-4.5,13,-20 --intensity 15000 \
       --light-position=-6,13,-20 --intensity 15000 --light-position=-7.5,13,-20 --intensity 15000
   }
-  # A surface shadow by the volume's bits, and an empty frame, whose cost every method shares.
-  compare window --size "${size}x$size" --volume none --surface shadow-map,vsv,none
 done
+# Exact surface shadows beside the others, and an empty frame, whose cost every method shares.
+surfaces=psv,psv:wedge=off,psv:order=file,shadow-map,vsv,none
+compare window --size 1024x1024 --volume none --surface $surfaces
+[ ! -f "$pack/scenes/victorian_fence_19k.glb" ] ||
+  compare scenes/victorian_fence_19k.glb --eye 0.3,0.5,3 --target 0,0.4,0 --fov 45 --light-position=-0.2,0.7,-1 \
+    --intensity 8 --sigma-s 0.25 --size 1024x1024 --volume none --surface $surfaces
+[ ! -f "$pack/scenes/sponza_262k.glb" ] ||
+  compare scenes/sponza_262k.glb --eye=-12,3,-0.5 --target 0,5,0 --fov 60 --light-position 3,7,0 --intensity 300 \
+    --sigma-s 0.04 --sigma-a 0.01 --size 1024x1024 --volume none --surface $surfaces
+
+say
+say "## Exact surface shadows, judged"
+say
+say '```'
+models="window toroid"
+for model in sponza_262k maple_198k victorian_fence_19k dragon_nonmanifold_202k lily_duplicates_168k \
+  willow_garage_backtoback_14k railing_degenerate_11k nonmanifold_1k terrain_1280k bunny_closed_144k bunny_holes_69k; do
+  [ ! -f "$pack/scenes/$model.glb" ] || models="$models $pack/scenes/$model.glb"
+done
+# shellcheck disable=SC2086  # several words
+timeout "$limit" airlight_exact $models 2>&1 | tee -a "$figures"
+say '```'
 
 say
 say "## Functions"

@@ -21,7 +21,7 @@ pack=$work/airlight-device
 mkdir -p "$pack"/{bin,programs,scenes,lib/c,lib/c++,lib/gl,lib/z}
 
 # The programs. Each is started by a link of its name to bin/launch.
-programs=("$build/airlight" "$build/tests/bench/airlight_tables" "$build"/tests/{unit,gpu,image,cli}/*_test)
+programs=("$build/airlight" "$build"/tests/bench/airlight_{tables,exact} "$build"/tests/{unit,gpu,image,cli}/*_test)
 for program in "${programs[@]}"; do
   name=$(basename "$program")
   strip -o "$pack/programs/$name" "$program"
@@ -38,6 +38,7 @@ shared=${AIRLIGHT_SHARED:-../shared}
 if [ -d "$shared/scenes" ]; then
   # What is larger would be most of the pack.
   find "$shared/scenes" -type f -size -5M -exec cp {} "$pack/scenes/" \;
+  [ ! -f "$shared/scenes/terrain_1280k.glb" ] || cp "$shared/scenes/terrain_1280k.glb" "$pack/scenes/"
   cp -r "$shared/truth" "$pack/"
 else
   echo "pack.sh: without shared scenes: $shared/scenes is not there" >&2

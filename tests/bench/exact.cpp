@@ -1,0 +1,193 @@
+// Exact surface shadows on models under random lights and views: wrong and undecided pixels, nodes a pixel,
+// bytes.
+//
+// `airlight_exact [--size N] [--scale S] [--offset X] MODEL...`: built-in scenes or files. Of each, ten views
+// of N×N pixels (default 1024), from inside and outside, under lamps inside, outside, close to the ground and
+// far away and under suns, the same ones in every run. Positions are scaled by S and moved by X sizes of the
+// model, and rounded to float. Every pixel is judged (reference/surface_judge.h); beside `psv` the shadow
+// cube of 2048².
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "frame/frame.h"
+#include "frame/none.h"
+#include "frame/point_reader.h"
+#include "gpu/context.h"
+#include "reference/surface_judge.h"
+#include "scene/builtin.h"
+#include "scene/error.h"
+#include "scene/import.h"
+#include "support/random.h"
+#include "surface_shadows/psv.h"
+#include "surface_shadows/shadow_map_lookup.h"
+
+namespace {
+
+using namespace airlight;
+
+/// Counts the nodes that each pixel visits, as well.
+class CountedPsv : public surface_shadows::Psv {
+ public:
+  using Psv::Psv;
+  void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override {
+    Psv::query(inputs, visibility);
+    const gpu::Texture counts(gpu::Format::r32f, visibility.size());
+    count_nodes(inputs, counts);
+    nodes = counts.read<float>();
+  }
+  std::vector<float> nodes;
+};
+
+struct Row {
+  std::size_t pixels = 0, wrong = 0, wrong_by_map = 0, undecided = 0;
+  double nodes = 0.0;
+  float most_nodes = 0.0f;
+};
+
+scene::View view_number(int i, const scene::Box& box, int size, tests::Random& random) {
+  const glm::dvec3 lower(box.lower), extent = glm::dvec3(box.upper) - lower, middle = lower + 0.5 * extent;
+  const double radius = 0.5 * glm::length(extent);
+  const auto inside = [&](double least_y, double most_y) {
+    return lower + extent * glm::dvec3(random.uniform(0.05, 0.95), random.uniform(least_y, most_y),
+                                       random.uniform(0.05, 0.95));
+  };
+  const auto above = [&] {
+    glm::dvec3 direction = random.direction();
+    direction.y = std::abs(direction.y);
+    return direction;
+  };
+  scene::View view;
+  view.size = {size, size};
+  view.medium.sigma_s = glm::vec3(static_cast<float>(1e-9 / radius));
+  view.camera.eye = i < 5 ? middle + random.uniform(0.8, 1.6) * radius * above() : inside(0.1, 0.9);
+  view.camera.target = i < 5 ? middle : inside(0.1, 0.9);
+  view.camera.vertical_fov_degrees = 60.0;
+  const auto lamp = [&](glm::dvec3 at) {
+    const double distance = glm::distance(at, middle) + radius;
+    return scene::point_light("", at, glm::vec3(static_cast<float>(1e6 * distance * distance)));
+  };
+  switch (i % 5) {
+    case 0:
+      view.lights = {lamp(inside(0.2, 0.9))};
+      break;
+    case 1:
+      view.lights = {lamp(middle + random.uniform(1.5, 3.0) * radius * above())};
+      break;
+    case 2: {
+      glm::dvec3 at = middle + 1.3 * radius * random.direction();
+      at.y = lower.y + 0.01 * extent.y + 1e-3 * radius;
+      view.lights = {lamp(at)};
+      break;
+    }
+    case 3:
+      view.lights = {lamp(middle + 100.0 * radius * above())};
+      break;
+    default:
+      view.lights = {scene::sun("", above(), glm::vec3(1.0f))};
+  }
+  return view;
+}
+
+std::vector<float> visibility_by(frame::Frame& frame, const scene::View& view, frame::SurfaceShadow& method) {
+  frame::NoAirlight none;
+  gpu::StageTimer timer(nullptr);
+  frame.render(view, method, none, timer);
+  return frame.read().visibility.at(0);
+}
+
+Row measure(gpu::Context& context, const scene::Geometry& geometry, int size) {
+  Row row;
+  const reference::Triangles triangles{geometry.positions, geometry.triangles};
+  const scene::Box box = scene::bounds(geometry);
+  frame::Frame frame(context, geometry, 2048);
+  CountedPsv psv(surface_shadows::PsvOptions{});
+  surface_shadows::ShadowMapLookup shadow_map;
+  tests::Random random(2015);
+  for (int i = 0; i < 10; ++i) {
+    const scene::View view = view_number(i, box, size, random);
+    frame::PointReader reader;
+    visibility_by(frame, view, reader);
+    const frame::SurfacePoints& seen = reader.points();
+    const std::vector<float> exact = visibility_by(frame, view, psv),
+                             by_map = visibility_by(frame, view, shadow_map);
+    const reference::SurfaceJudge judge(triangles, view.lights[0], view.camera.eye);
+    std::vector<reference::SurfacePoint> points;
+    std::vector<std::size_t> pixels;
+    for (std::size_t pixel = 0; pixel < exact.size(); ++pixel) {
+      if (seen.triangles[pixel] == 0) continue;
+      points.push_back({glm::vec3(seen.of_light[0][pixel]), seen.triangles[pixel] - 1});
+      pixels.push_back(pixel);
+      row.nodes += static_cast<double>(psv.nodes[pixel]);
+      row.most_nodes = std::max(row.most_nodes, psv.nodes[pixel]);
+    }
+    const std::vector<reference::SurfaceVerdict> verdicts = judge.judge(points);
+    row.pixels += points.size();
+    for (std::size_t at = 0; at < points.size(); ++at) {
+      const float expected = verdicts[at].verdict == reference::Verdict::lit ? 1.0f : 0.0f;
+      if (!verdicts[at].is_decided) {
+        ++row.undecided;
+        continue;
+      }
+      row.wrong_by_map += by_map[pixels[at]] != expected ? 1 : 0;
+      if (exact[pixels[at]] == expected) continue;
+      ++row.wrong;
+      fmt::print(stderr, "view {}, pixel {}: {} instead of {}\n", i, pixels[at], exact[pixels[at]], expected);
+    }
+  }
+  row.nodes /= static_cast<double>(std::max<std::size_t>(row.pixels, 1));
+  return row;
+}
+
+scene::Geometry load(const std::string& name) {
+  if (const scene::BuiltinScene* builtin = scene::find_builtin(name)) return builtin->make().geometry;
+  return scene::import_scene(name).geometry;
+}
+
+void run(std::vector<std::string> words) {
+  int size = 1024;
+  double scale = 1.0, offset = 0.0;
+  std::vector<std::string> models;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == "--size")
+      size = std::stoi(words.at(++i));
+    else if (words[i] == "--scale")
+      scale = std::stod(words.at(++i));
+    else if (words[i] == "--offset")
+      offset = std::stod(words.at(++i));
+    else
+      models.push_back(words[i]);
+  }
+  const std::unique_ptr<gpu::Context> context = std::make_unique<gpu::Context>();
+  fmt::print("{:<32} {:>10} {:>10} {:>8} {:>10} {:>10} {:>8} {:>8}\n", "model", "triangles", "pixels",
+             "wrong", "undecided", "map wrong", "nodes", "most");
+  for (const std::string& model : models) {
+    scene::Geometry geometry = load(model);
+    const scene::Box box = scene::bounds(geometry);
+    const double moved = offset * static_cast<double>(glm::length(box.upper - box.lower));
+    for (glm::vec3& position : geometry.positions)
+      position = glm::vec3(scale * (glm::dvec3(position) + moved));
+    const Row row = measure(*context, geometry, size);
+    fmt::print("{:<32} {:>10} {:>10} {:>8} {:>10} {:>10} {:>8.1f} {:>8}\n",
+               model.substr(model.rfind('/') + 1), geometry.triangles.size(), row.pixels, row.wrong,
+               row.undecided, row.wrong_by_map, row.nodes, row.most_nodes);
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  try {
+    run({words + 1, words + count});
+    return EXIT_SUCCESS;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "airlight_exact: {}\n", error.what());
+    return EXIT_FAILURE;
+  }
+}
