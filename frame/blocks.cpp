@@ -5,11 +5,12 @@
 
 namespace airlight::frame {
 
-float near_depth(const SceneBuffers& scene, glm::dvec3 apex, double eye_light_distance) {
-  // The nearest point may lie in the corner of a cube face, where depth is 1/√3 of distance.
-  const double nearest = 0.5 * scene.distance_to(apex);
-  return static_cast<float>(
-      std::clamp(nearest, 0.5 * SceneBuffers::k_touch * eye_light_distance, eye_light_distance));
+float near_depth(const SceneBuffers& scene, glm::dvec3 apex, double eye_light_distance, double half_width,
+                 double half_height) {
+  // The nearest point may lie in the pyramid's corner, where depth is least; and something for rounding.
+  const double share = 0.85 / std::sqrt(1.0 + half_width * half_width + half_height * half_height);
+  const double nearest = std::max(scene.distance_to(apex), SceneBuffers::k_touch * eye_light_distance);
+  return static_cast<float>(share * (std::isfinite(nearest) ? nearest : eye_light_distance));
 }
 
 shaders::CameraBlock camera_block(const scene::CameraFrame& camera, glm::ivec2 image_size, float near) {

@@ -21,10 +21,13 @@ static_assert(sizeof(CameraBlock) == 80 && sizeof(LightBlock) == 128 && sizeof(M
 
 namespace airlight::frame {
 
-/// The depth [m] at which a pyramid at `apex`, the eye or the light, starts to order surfaces. As large as
-/// the scene allows, because depth is interpolated on triangles that reach up to it; not smaller than half of
-/// SceneBuffers::k_touch of the distance between eye and light, since nothing nearer is drawn.
-float near_depth(const SceneBuffers& scene, glm::dvec3 apex, double eye_light_distance);
+/// The depth [m] at which a pyramid at `apex`, the eye or the light, starts to order surfaces: nothing that
+/// is drawn in it is nearer. As large as the scene allows, because depth is interpolated on triangles that
+/// reach up to it; what is nearer than SceneBuffers::k_touch of the distance between eye and light is not
+/// drawn.
+/// @param half_width, half_height of the pyramid at depth 1; of a cube face 1
+float near_depth(const SceneBuffers& scene, glm::dvec3 apex, double eye_light_distance,
+                 double half_width = 1.0, double half_height = 1.0);
 
 // The uniform blocks of a frame.
 

@@ -146,7 +146,7 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
     double distance = std::numeric_limits<double>::infinity();
     for (const scene::Light& light : view.lights)
       distance = std::min(distance, length_scale(light, camera.eye, scene.box()));
-    const float near = near_depth(scene, camera.eye, distance);
+    const float near = near_depth(scene, camera.eye, distance, camera.half_width, camera.half_height);
     write_block(camera_block_, camera_block(camera, view.size, near), shaders::k_camera_block);
     write_block(medium_block_, medium_block(view.medium, camera.eye), shaders::k_medium_block);
     gbuffer_->draw(scene, camera, scene.triangles_at(camera.eye, distance));

@@ -117,7 +117,8 @@ constexpr Function k_functions[] = {
     {"planes_of_triangle", 4, 0, 0, Scale::one, 60},
     {"plane_at", 1, 0, 0, Scale::one, 60},
     {"clip", 2, k_single, 0},
-    {"outline_in_slab", 20, 0, 1e-5, Scale::length, 20},
+    // Whether a corner lies in a slab at whose side it lies to rounding: twice as often on NVIDIA's GPUs.
+    {"outline_in_slab", 20, 0, 1e-5, Scale::length, 60},
     {"curvature_slack", 1, 0, 1e-9, Scale::length, 20},
     {"phi_order_bounds", 2, 0, 1e-4, Scale::one, 20},  // seen from the light, points misplaced by the slack
     {"part_in_slab.first_ray", 1, 0, 1, Scale::one, 20},

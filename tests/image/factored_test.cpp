@@ -23,7 +23,8 @@ TEST(Factored, IsTheTableWhereNothingCastsShadow) {
   for (glm::dvec3 offset : {glm::dvec3(0, 0, 0), glm::dvec3(3, 1, 0), glm::dvec3(0, 0, 20)}) {
     view.lights[0].position += offset;
     const auto expected = tests::render_vsv({}, view).airlight;
-    EXPECT_LT(tests::error_of(tests::render_vsv({}, view, factored()).airlight, expected).max, 1e-6);
+    EXPECT_LT(tests::error_of(tests::render_vsv({}, view, factored()).airlight, expected).max, 2e-6)
+        << "a product of two quotients, each of which GLSL rounds by up to 2.5 ulp";
   }
 }
 
