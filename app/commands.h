@@ -9,7 +9,8 @@ namespace airlight::app {
 
 void render(const Options& options);
 
-/// @throws scene::Error (threshold_missed) after everything is written, when --max-error is missed
+/// @throws scene::Error (threshold_missed) after everything is written, when --max-error or --max-undecided
+/// is missed
 void compare(const Options& options);
 
 void list_scenes();

@@ -49,6 +49,30 @@ void require_accuracy(const quality::Comparison& comparison, double limit) {
               "give the method more cells or samples, or allow more");
 }
 
+/// @throws Error (threshold_missed) naming the run, and of a path the frame, with the largest part of
+/// undecided surface pixels, where that is more than `limit`
+void require_decided(const quality::Comparison& comparison, double limit) {
+  const quality::Run* worst = nullptr;
+  double most = limit;
+  std::string what;
+  const auto look_at = [&](const quality::Run& run, const quality::Errors& errors, const std::string& where) {
+    if (errors.surface.undecided() <= most) return;
+    most = errors.surface.undecided();
+    worst = &run;
+    what = fmt::format("--max-undecided {}{}", limit, where);
+  };
+  for (const quality::Run& run : comparison.runs) {
+    if (run.path.empty()) look_at(run, run.errors, "");
+    for (std::size_t i = 0; i < run.path.size(); ++i)
+      look_at(run, run.path[i].errors, fmt::format(", frame {}", i));
+  }
+  if (!worst) return;
+  throw Error(ExitCode::threshold_missed, what,
+              fmt::format("{:.4g} of the surface pixels of {} × {} are undecided", most, worst->volume,
+                          worst->surface),
+              "choose a light or a camera that fewer surfaces are edge-on to, or allow more");
+}
+
 }  // namespace
 
 void compare(const Options& options) {
@@ -71,6 +95,12 @@ void compare(const Options& options) {
       throw Error(ExitCode::usage, "--max-error", "no --volume is judged by it", "add one that is, as vsv");
     }
   }
+  std::optional<double> undecided_limit;
+  if (const auto text = options.get("max-undecided")) {
+    undecided_limit = scene::parse_number("--max-undecided", *text);
+    if (*undecided_limit < 0.0 || *undecided_limit > 1.0)
+      throw Error(ExitCode::usage, "--max-undecided", fmt::format("'{}' is not between 0 and 1", *text));
+  }
   Subject subject = make_subject(options);
   fit_to_view(volumes, surfaces, subject);
   const std::filesystem::path folder =
@@ -91,7 +121,7 @@ void compare(const Options& options) {
        .triangles = subject.scene.geometry.triangles.size()});
   const auto command = [&](const quality::VolumeChoice& volume, const quality::SurfaceChoice& surface) {
     // What is asked of all pairs, and what this one does not read, is left out.
-    std::vector<std::string> without = {"volume", "surface", "json", "max-error"};
+    std::vector<std::string> without = {"volume", "surface", "json", "max-error", "max-undecided"};
     for (const auto& option : options.given)
       if (!quality::is_read(option.first, {&volume, 1}, {&surface, 1})) without.push_back(option.first);
     return fmt::format("{} --volume {} --surface {}", options.command_line(without),
@@ -135,6 +165,7 @@ void compare(const Options& options) {
   print(json == "-" ? results : quality::results_table(comparison));
   if (!options.quiet) say(fmt::format("{} written", (folder / "report.html").string()));
   if (limit) require_accuracy(comparison, *limit);
+  if (undecided_limit) require_decided(comparison, *undecided_limit);
 }
 
 }  // namespace airlight::app

@@ -121,6 +121,9 @@ int run(int argc, char** argv) {
   add_option(compare_command,
              {"max-error", "X", "exit with 1 where a method's airlight has an rrmse above this, as in 0.02"});
   add_option(compare_command,
+             {"max-undecided", "X",
+              "exit with 1 where more than this part of a run's surface pixels is undecided, as in 0.01"});
+  add_option(compare_command,
              {"json", "FILE", "write the results there too; - means standard output, instead of the table"});
   compare_command.add_flag(
       "--debug", options.debug,

@@ -21,10 +21,10 @@ constexpr std::size_t k_bytes_of_render = 90;
 constexpr std::size_t k_bytes_of_path = 120;
 
 /// The same and the truth, a run's images, and what its errors are found in.
-constexpr std::size_t k_bytes_of_compare = 190;
+constexpr std::size_t k_bytes_of_compare = 225;
 
 /// What each light beside the first adds to them: its airlight and visibility, a copy of each, and its truth.
-constexpr std::size_t k_bytes_of_rendered_light = 40, k_bytes_of_compared_light = 70;
+constexpr std::size_t k_bytes_of_rendered_light = 40, k_bytes_of_compared_light = 105;
 
 /// The truth of each of a path's frames, by one light.
 constexpr std::size_t k_bytes_of_path_frame = 20;

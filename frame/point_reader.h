@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include "frame/methods.h"
 #include "frame/surface_points.h"
 
@@ -13,6 +15,7 @@ class PointReader : public SurfaceShadow {
 
   /// Of the last frame.
   const SurfacePoints& points() const { return points_; }
+  SurfacePoints take_points() { return std::exchange(points_, {}); }
 
  private:
   SurfacePoints points_;

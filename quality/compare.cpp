@@ -44,12 +44,16 @@ std::map<std::string, std::string> metadata_of(const CompareRequest& request, co
   return metadata;
 }
 
-/// What the truth of the view that is looked at looks like: the colour of surfaces is the compositor's, the
-/// rest the rays'.
+/// Of the view that is looked at.
+Truth truth_of(Measurer& measurer, const scene::View& view) {
+  return trace_truth(measurer.reference(), view, measurer.surface_points());
+}
+
+/// What the truth of the view that is looked at looks like: surfaces are the frame's, airlight and distance
+/// the rays'.
 frame::FrameImages images_of_truth(Measurer& measurer, const Truth& truth) {
   frame::FrameImages images = measurer.render(parse_volumes("reference")[0], parse_surfaces("reference")[0]);
   images.distance = truth.distance;
-  images.visibility = truth.visibility;
   return images;
 }
 
@@ -76,6 +80,7 @@ void write_previews(const CompareRequest& request, const std::string& name, cons
   const auto file = [&](const char* kind) { return request.directory / (name + kind + ending + ".png"); };
   write_png(file(""), images.radiance, images.size, exposure.value);
   write_png(file("_error"), error_colours(images.airlight, truth.airlight), images.size, 1.0f);
+  write_png(file("_surface"), surface_colours(images, truth.verdicts), images.size, 1.0f);
 }
 
 std::vector<Run::DebugImage> write_debug_images(const CompareRequest& request, const Run& run,
@@ -115,7 +120,7 @@ std::vector<Truth> trace_path(const CompareRequest& request, Measurer& measurer,
   const double count = static_cast<double>(views.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
     measurer.look_at(views[i]);
-    const Truth& truth = truths.emplace_back(trace_truth(measurer.reference(), views[i]));
+    const Truth& truth = truths.emplace_back(truth_of(measurer, views[i]));
     const frame::FrameImages images = images_of_truth(measurer, truth);
     if (i == 0) comparison.exposure = choose_exposure(request, images.radiance);
     write_png(request.directory / fmt::format("reference{}.png", scene::frame_ending(i)), images.radiance,
@@ -185,7 +190,7 @@ Comparison compare(gpu::Context& context, const CompareRequest& request) {
   if (request.path) {
     truths = trace_path(request, measurer, comparison);
   } else {
-    const Truth& truth = truths.emplace_back(trace_truth(measurer.reference(), request.view));
+    const Truth& truth = truths.emplace_back(truth_of(measurer, request.view));
     const frame::FrameImages images = images_of_truth(measurer, truth);
     comparison.truth = truth.figures;
     comparison.exposure = choose_exposure(request, images.radiance);

@@ -30,9 +30,9 @@ struct CompareRequest {
 };
 
 /// Measures every volume method with every surface method, judges them by the reference, and writes
-/// the images: reference.exr and .png, and for each run NAME.exr, NAME.png and NAME_error.png
-/// (`error_colours`); where asked for, the debug images of each volume method, as NAME_IMAGE.exr, channel Y,
-/// and NAME_IMAGE.png, where the largest value is white.
+/// the images: reference.exr and .png, and for each run NAME.exr, NAME.png, NAME_error.png (`error_colours`)
+/// and NAME_surface.png (`surface_colours`); where asked for, the debug images of each volume method, as
+/// NAME_IMAGE.exr, channel Y, and NAME_IMAGE.png, where the largest value is white.
 ///
 /// Along a path: every frame of it is judged and timed, as Measurer::measure_path does. Of the images the PNG
 /// ones alone are written, of each frame, whose number ends their names, as in NAME_0007.png, and no debug

@@ -16,11 +16,11 @@ Errors judge(const frame::FrameImages& images, const Truth& truth) {
   errors.airlight = airlight_error(floats(images.airlight), floats(truth.airlight), truth.figures.floor);
   errors.same_surface = same_surface_error(floats(images.airlight), images.distance, floats(truth.airlight),
                                            truth.distance, truth.figures.floor);
-  for (std::size_t light = 0; light < truth.visibility.size(); ++light) {
+  for (std::size_t light = 0; light < truth.verdicts.size(); ++light) {
     if (images.is_skipped[light]) continue;  // whether it is seen changes nothing
-    const SurfaceError error =
-        surface_error(images.visibility[light], images.distance, truth.visibility[light], truth.distance);
+    const SurfaceError error = surface_error(images.visibility[light], truth.verdicts[light]);
     errors.surface.wrong_pixels += error.wrong_pixels;
+    errors.surface.undecided_pixels += error.undecided_pixels;
     errors.surface.pixels += error.pixels;
   }
   return errors;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "frame/none.h"
+#include "frame/point_reader.h"
 
 namespace airlight::quality {
 namespace {
@@ -100,6 +101,13 @@ frame::FrameImages Measurer::render(const VolumeChoice& volume, const SurfaceCho
   const auto shadow = surface.make(context_, *reference_);
   draw(*shadow, *airlight);
   return frame_.read();
+}
+
+frame::SurfacePoints Measurer::surface_points() {
+  frame::PointReader reader;
+  frame::NoAirlight no_airlight;
+  draw(reader, no_airlight);
+  return reader.take_points();
 }
 
 struct Measurer::TimedFrame {

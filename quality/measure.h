@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "frame/frame.h"
+#include "frame/surface_points.h"
 #include "quality/methods.h"
 
 namespace airlight::quality {
@@ -63,6 +64,9 @@ class Measurer {
   void try_out(std::span<const VolumeChoice> volumes, std::span<const SurfaceChoice> surfaces);
 
   frame::FrameImages render(const VolumeChoice& volume, const SurfaceChoice& surface);
+
+  /// What frames of the view shade, whatever their methods. Draws one more frame.
+  frame::SurfacePoints surface_points();
 
   struct Measurement {
     Cost cost;

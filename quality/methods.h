@@ -63,7 +63,7 @@ struct Choice {
   /// from view to view
   void fit(std::span<const scene::View> views);
 
-  /// @param reference lent to methods that trace rays
+  /// @param reference lent to methods of the CPU
   auto make(const gpu::Context& context, SharedReference& reference) const {
     auto made = method->make(context, options);
     lend(reference, *made);

@@ -1,7 +1,6 @@
 #include "quality/metrics.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
 #include <string_view>
@@ -112,20 +111,15 @@ SameSurfaceError same_surface_error(std::span<const float> x, std::span<const fl
   return error;
 }
 
-SurfaceError surface_error(std::span<const float> visibility, std::span<const float> distance,
-                           std::span<const float> reference_visibility,
-                           std::span<const float> reference_distance) {
-  assert(visibility.size() == distance.size() && reference_visibility.size() == reference_distance.size());
-  require_same_length(visibility.size(), reference_visibility.size());
+SurfaceError surface_error(std::span<const float> visibility, const SurfaceVerdicts& verdicts) {
+  require_same_length(visibility.size(), verdicts.size());
   require_finite(visibility, "visibility to judge");
-  require_finite(reference_visibility, "reference visibility");
-  require_finite(distance, "distance to judge");
-  require_finite(reference_distance, "reference distance");
   SurfaceError error{};
   for (std::size_t i = 0; i < visibility.size(); ++i) {
-    if (distance[i] == 0.0f || reference_distance[i] == 0.0f) continue;
+    if (!verdicts[i]) continue;
     ++error.pixels;
-    if ((visibility[i] >= 0.5f) != (reference_visibility[i] >= 0.5f)) ++error.wrong_pixels;
+    if (!verdicts[i]->is_decided) ++error.undecided_pixels;
+    if (is_wrong(visibility[i], *verdicts[i])) ++error.wrong_pixels;
   }
   return error;
 }

@@ -1,6 +1,11 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <span>
+#include <vector>
+
+#include "reference/surface_judge.h"
 
 namespace airlight::quality {
 
@@ -42,17 +47,33 @@ SameSurfaceError same_surface_error(std::span<const float> x, std::span<const fl
                                     std::span<const float> r, std::span<const float> reference_distance,
                                     double floor = 0.0);
 
-/// Surface shadows: pixels that hit a surface in both images, and how many of them are lit in one and dark in
-/// the other.
+/// What the pixels of an image are judged by: nothing where no surface is seen.
+using SurfaceVerdicts = std::vector<std::optional<reference::SurfaceVerdict>>;
+
+/// Surface shadows, of the pixels that show a surface.
 struct SurfaceError {
-  std::size_t wrong_pixels;
+  std::size_t wrong_pixels;      ///< lit where the verdict is dark or the other way round, and decided
+  std::size_t undecided_pixels;  ///< whose verdict the frame's rounding of the point may change
   std::size_t pixels;
+
+  /// The part of the pixels that is undecided; 0 where there are none.
+  double undecided() const {
+    return pixels == 0 ? 0.0 : static_cast<double>(undecided_pixels) / static_cast<double>(pixels);
+  }
 };
 
-/// @param visibility, reference_visibility 0 or 1 (a value of at least ½ counts as lit)
-/// @param distance, reference_distance 0 where no surface is hit
-SurfaceError surface_error(std::span<const float> visibility, std::span<const float> distance,
-                           std::span<const float> reference_visibility,
-                           std::span<const float> reference_distance);
+/// Whether a surface counts as lit.
+inline bool is_lit(float visibility) {
+  return visibility >= 0.5f;
+}
+
+/// Whether a decided verdict contradicts an image.
+inline bool is_wrong(float visibility, const reference::SurfaceVerdict& verdict) {
+  return verdict.is_decided && is_lit(visibility) != (verdict.verdict == reference::Verdict::lit);
+}
+
+/// @param visibility, verdicts one a pixel
+/// @throws scene::Error (bad_file) when a value is NaN or infinite, or the lengths differ
+SurfaceError surface_error(std::span<const float> visibility, const SurfaceVerdicts& verdicts);
 
 }  // namespace airlight::quality

@@ -80,4 +80,30 @@ std::vector<glm::vec3> error_colours(const std::vector<glm::vec3>& x, const std:
   return colours;
 }
 
+std::vector<glm::vec3> surface_colours(const frame::FrameImages& images,
+                                       const std::vector<SurfaceVerdicts>& verdicts) {
+  // In shadow a surface is still told from none.
+  constexpr float k_shadow = 0.03f, k_lit = 0.5f;
+  const glm::vec3 red(1.0f, 0.0f, 0.0f), yellow(1.0f, 0.75f, 0.0f);
+  std::vector<glm::vec3> colours(images.distance.size(), glm::vec3(0.0f));
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    float sum = 0.0f;
+    int lights = 0;
+    bool any_wrong = false, any_undecided = false;
+    for (std::size_t light = 0; light < verdicts.size(); ++light) {
+      const auto& verdict = verdicts[light][i];
+      if (images.is_skipped[light] || !verdict) continue;
+      const float visibility = images.visibility[light][i];
+      sum += visibility;
+      ++lights;
+      any_wrong = any_wrong || is_wrong(visibility, *verdict);
+      any_undecided = any_undecided || !verdict->is_decided;
+    }
+    if (lights == 0) continue;
+    const float grey = glm::mix(k_shadow, k_lit, sum / static_cast<float>(lights));
+    colours[i] = any_wrong ? red : any_undecided ? yellow : glm::vec3(grey);
+  }
+  return colours;
+}
+
 }  // namespace airlight::quality

@@ -7,6 +7,7 @@
 
 #include "frame/frame.h"
 #include "quality/image_io.h"
+#include "quality/metrics.h"
 
 namespace airlight::quality {
 
@@ -31,5 +32,12 @@ constexpr double k_error_white = 1e-3, k_error_full = 1.0;
 /// A signed heat map of x − r, averaged over RGB, relative to mean(r): white below `k_error_white`, then
 /// logarithmic up to `k_error_full`; red where x is too bright, blue where it is too dark. Linear colours.
 std::vector<glm::vec3> error_colours(const std::vector<glm::vec3>& x, const std::vector<glm::vec3>& r);
+
+/// The part of the lights that each surface sees, in grey: black where no surface is seen. Over it red where
+/// that is wrong for a light, else yellow where it is undecided for one; a light that was skipped counts in
+/// nothing. Linear colours.
+/// @param verdicts for each light
+std::vector<glm::vec3> surface_colours(const frame::FrameImages& images,
+                                       const std::vector<SurfaceVerdicts>& verdicts);
 
 }  // namespace airlight::quality

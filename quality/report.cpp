@@ -92,8 +92,9 @@ in them, or 1e-30 W/(m² sr): an error relative to it would be one of rounding, 
 <dt>relmse</dt><dd>mean((x − r)² / (r² + ε)), ε = 0.01 · mean(r)²; no unit.</dd>
 <dt>leaked, spurious shadow [%]</dt><dd>Σ max(0, x − r) / Σ r and Σ max(0, r − x) / Σ r, over the pixels of same-surface rrmse:
 light, and shadow, where there is none.</dd>
-<dt>wrong pixels</dt><dd>Surface shadow: pixels lit in one image and dark in the other, of those where both see a surface, against one
-shadow ray a pixel.</dd>
+<dt>wrong pixels, undecided</dt><dd>Surface shadow: pixels lit where a triangle hides the point that the frame shades, or dark where none
+does, of all pixels that show a surface, of several lights together. That is decided without rounding about the frame's own numbers; where the
+rounding of the point itself decides, the pixel is undecided, and not wrong.</dd>
 <dt>memory [MiB]</dt><dd>GPU memory of scene, shadow map and method.</dd>
 <dt>stages [ms]</dt><dd>Medians over frames in which the GPU is finished around each stage; their sum can exceed the frame time.
 A light is skipped where it cannot reach the view: nothing that the image shows is in its cone or range, or the medium lets
@@ -118,6 +119,7 @@ std::string results_rows(const Comparison& comparison) {
             cell(percent(error.max)) + cell(error.is_dark ? "dark" : fmt::format("{:.3g}", error.relmse)) +
             cell(percent(run.errors.same_surface.leaked)) + cell(percent(run.errors.same_surface.spurious)) +
             cell(fmt::format("{} / {}", run.errors.surface.wrong_pixels, run.errors.surface.pixels)) +
+            cell(fmt::format("{}", run.errors.surface.undecided_pixels)) +
             cell(fmt::format("{:.1f}", static_cast<double>(bytes) / (1 << 20))) + "</tr>\n";
   }
   return html;
@@ -251,6 +253,8 @@ std::string run_section(const Run& run) {
          figure(run.name + frame + ".png", "radiance" + which) +
          figure("reference" + frame + ".png", "radiance, reference" + which) +
          figure(run.name + "_error" + frame + ".png", "airlight error, scale as above" + which) +
+         figure(run.name + "_surface" + frame + ".png",
+                "surface shadow: wrong pixels red, undecided ones yellow" + which) +
          debug_images + fmt::format("</div>\n<code>{}</code></section>\n", escape(run.command));
 }
 
@@ -310,7 +314,7 @@ std::string report_html(const Comparison& comparison) {
       "<th>rmse [W/(m² sr)]</th><th>rrmse [%]</th><th>same-surface rrmse [%]</th><th>left out "
       "[pixels]</th><th>bias [%]</th><th>mae "
       "[%]</th><th>p99 [%]</th><th>max [%]</th><th>relmse</th><th>leaked [%]</th><th>spurious shadow [%]</th>"
-      "<th>wrong pixels</th><th>memory [MiB]</th></tr></thead><tbody>\n" +
+      "<th>wrong pixels</th><th>undecided</th><th>memory [MiB]</th></tr></thead><tbody>\n" +
       results_rows(comparison) + "</tbody></table></div>\n";
   html += "<h2>Stages [ms]</h2>\n<div class=\"scroll\">" + stages_table(comparison) + "</div>\n";
   html += std::string("<h2>What the numbers mean</h2>\n") + k_definitions;

@@ -85,7 +85,9 @@ Json path_json(const Run& run) {
                       {"rrmse", number(frame.errors.airlight.rrmse)},
                       {"bias", number(frame.errors.airlight.bias)},
                       {"same_surface_rrmse", number(frame.errors.same_surface.rrmse)},
-                      {"wrong_pixels", frame.errors.surface.wrong_pixels}});
+                      {"wrong_pixels", frame.errors.surface.wrong_pixels},
+                      {"undecided_pixels", frame.errors.surface.undecided_pixels},
+                      {"pixels", frame.errors.surface.pixels}});
   }
   const PathSpreads spreads = path_spreads(run);
   return {{"frame_ms", spread_json(spreads.ms)},
@@ -95,42 +97,46 @@ Json path_json(const Run& run) {
           {"frames", frames}};
 }
 
+Json surface_json(const SurfaceError& error) {
+  return {{"wrong_pixels", error.wrong_pixels},
+          {"undecided_pixels", error.undecided_pixels},
+          {"pixels", error.pixels}};
+}
+
 Json run_json(const Run& run, const scene::View& view) {
   const AirlightError& error = run.errors.airlight;
-  Json json = {
-      {"volume", run.volume},
-      {"surface", run.surface},
-      {"name", run.name},
-      {"settings", settings_json(run.settings)},
-      {"surface_settings", settings_json(run.surface_settings)},
-      {"command", run.command},
-      {"stages_ms", run.cost.stages_ms},
-      {"lights", lights_json(run, view)},
-      {"skipped_lights", run.cost.skipped_lights()},
-      {"frame_ms", run.cost.frame_ms},
-      {"frames", run.cost.frames},
-      {"bytes", run.cost.bytes},
-      {"error",
-       {{"airlight",
-         {{"dark", error.is_dark},
-          {"bias", number(error.bias)},
-          {"rmse", error.rmse},
-          {"rrmse", number(error.rrmse)},
-          {"mae", number(error.mae)},
-          {"p99", number(error.p99)},
-          {"max", number(error.max)},
-          {"relmse", number(error.relmse)},
-          {"leaked", number(error.leaked)},
-          {"spurious", number(error.spurious)}}},
-        {"airlight_same_surface",
-         {{"dark", run.errors.same_surface.is_dark},
-          {"bias", number(run.errors.same_surface.bias)},
-          {"rrmse", number(run.errors.same_surface.rrmse)},
-          {"leaked", number(run.errors.same_surface.leaked)},
-          {"spurious", number(run.errors.same_surface.spurious)},
-          {"left_out_pixels", run.errors.same_surface.left_out_pixels}}},
-        {"surface",
-         {{"wrong_pixels", run.errors.surface.wrong_pixels}, {"pixels", run.errors.surface.pixels}}}}}};
+  Json json = {{"volume", run.volume},
+               {"surface", run.surface},
+               {"name", run.name},
+               {"settings", settings_json(run.settings)},
+               {"surface_settings", settings_json(run.surface_settings)},
+               {"command", run.command},
+               {"stages_ms", run.cost.stages_ms},
+               {"lights", lights_json(run, view)},
+               {"skipped_lights", run.cost.skipped_lights()},
+               {"frame_ms", run.cost.frame_ms},
+               {"frames", run.cost.frames},
+               {"bytes", run.cost.bytes},
+               {"error",
+                {{"airlight",
+                  {{"dark", error.is_dark},
+                   {"bias", number(error.bias)},
+                   {"rmse", error.rmse},
+                   {"rrmse", number(error.rrmse)},
+                   {"mae", number(error.mae)},
+                   {"p99", number(error.p99)},
+                   {"max", number(error.max)},
+                   {"relmse", number(error.relmse)},
+                   {"leaked", number(error.leaked)},
+                   {"spurious", number(error.spurious)}}},
+                 {"airlight_same_surface",
+                  {{"dark", run.errors.same_surface.is_dark},
+                   {"bias", number(run.errors.same_surface.bias)},
+                   {"rrmse", number(run.errors.same_surface.rrmse)},
+                   {"leaked", number(run.errors.same_surface.leaked)},
+                   {"spurious", number(run.errors.same_surface.spurious)},
+                   {"left_out_pixels", run.errors.same_surface.left_out_pixels}}},
+                 {"surface", surface_json(run.errors.surface)}}}};
   if (run.cost.rays > 0) {
     json["rays"] = run.cost.rays;
     json["mrays_per_s"] = run.cost.mrays_per_s;
@@ -364,7 +370,7 @@ std::string results_table(const Comparison& comparison) {
   // What each run cost and how far off it is.
   std::vector<std::vector<std::string>> rows = {{"volume", "surface", "frame ms", "march/frame", "Mrays/s",
                                                  "rmse", "rrmse %", "bias %", "p99 %", "same-surface rrmse %",
-                                                 "left out px", "wrong px"}};
+                                                 "left out px", "wrong px", "undecided px"}};
   for (const Run& run : comparison.runs) {
     const AirlightError& error = run.errors.airlight;
     rows.push_back({run.volume, run.surface, fmt::format("{:.2f}", run.cost.frame_ms),
@@ -375,7 +381,8 @@ std::string results_table(const Comparison& comparison) {
                     error.is_dark ? "dark" : fmt::format("{:.3g}", 100.0 * error.p99),
                     error_text(run.errors.same_surface.rrmse, truth.bound),
                     fmt::format("{}", run.errors.same_surface.left_out_pixels),
-                    fmt::format("{}", run.errors.surface.wrong_pixels)});
+                    fmt::format("{}", run.errors.surface.wrong_pixels),
+                    fmt::format("{}", run.errors.surface.undecided_pixels)});
   }
   text += layout(rows, 2);
 
@@ -405,9 +412,10 @@ std::string results_table(const Comparison& comparison) {
       "above the bound of the reference's own error. same-surface: without the pixels where rasterisation "
       "shows "
       "another\n"
-      "surface than the ray hits (left out). wrong px: surface pixels lit where the reference is dark or the "
-      "other\n"
-      "way round, of {} that both see.\n",
+      "surface than the ray hits (left out). wrong px: surfaces lit where any triangle hides the frame's own "
+      "point,\n"
+      "or dark where none does, of {}. undecided px: where the rounding of the point decides; they are not "
+      "wrong.\n",
       truth.mean_airlight, pixels);
   if (comparison.path)
     text += "Along a path: frame ms and stages are means over its frames, errors those of the worst frame.\n";

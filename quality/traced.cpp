@@ -3,6 +3,12 @@
 #include <algorithm>
 #include <chrono>
 
+#include <fmt/format.h>
+
+#include "frame/point_reader.h"
+#include "reference/surface_judge.h"
+#include "scene/error.h"
+
 namespace airlight::quality {
 namespace {
 
@@ -73,21 +79,41 @@ std::unique_ptr<frame::Airlight> make_traced(const gpu::Context&, const Options&
   return std::make_unique<TracedAirlight<Options>>(options);
 }
 
-class TracedShadow : public frame::SurfaceShadow, public Traced {
+class JudgedShadow : public frame::SurfaceShadow, public Traced {
  public:
-  void borrow(SharedReference& shared) override {
-    shared_ = &shared;
-    shared.prepare();
-  }
+  void borrow(SharedReference& shared) override { shared_ = &shared; }
   void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override {
-    inputs.timer.time("surface_query",
-                      [&] { visibility.write(shared_->surfaces(inputs.light_index).visibility.data()); });
+    inputs.surface_points();  // a stage of its own
+    inputs.timer.time("surface_query", [&] {
+      reader_.query(inputs, visibility);
+      std::vector<float> lit;
+      lit.reserve(reader_.points().triangles.size());
+      for (const auto& verdict : shared_->verdicts(inputs.light_index, reader_.points()))
+        lit.push_back(verdict && verdict->verdict == reference::Verdict::lit ? 1.0f : 0.0f);
+      visibility.write(lit.data());
+    });
   }
   bool sees_every_light() const override { return true; }
 
  private:
+  frame::PointReader reader_;
   SharedReference* shared_ = nullptr;
 };
+
+/// The points of the pixels that show a surface, in their order.
+std::vector<reference::SurfacePoint> seen_points(const frame::SurfacePoints& frame, std::size_t light) {
+  std::vector<reference::SurfacePoint> points;
+  for (std::size_t i = 0; i < frame.triangles.size(); ++i) {
+    if (frame.triangles[i] == 0) continue;
+    const glm::vec3 position(frame.of_light[light][i]);
+    // Infinity and NaN times 0 are NaN.
+    if (!(glm::dot(position, glm::vec3(0.0f)) == 0.0f))
+      throw scene::Error(scene::ExitCode::driver, fmt::format("surface point of pixel number {}", i),
+                         "it is not finite", "this is a fault of the program: please report the command");
+    points.push_back({position, frame.triangles[i] - 1});
+  }
+  return points;
+}
 
 constexpr frame::Traits k_truth = {.runs_on_gpu = false, .is_truth = true};
 
@@ -140,8 +166,9 @@ frame::SurfaceMethod reference_surface_method() {
   frame::Traits traits = k_truth;
   traits.is_exact = true;
   return frame::describe<frame::SurfaceShadow, frame::NoOptions>(
-      "reference", "one shadow ray a pixel on the CPU (Embree): the truth", traits, {},
-      [](const gpu::Context&, const frame::NoOptions&) { return std::make_unique<TracedShadow>(); });
+      "reference",
+      "whether any triangle hides the pixel's point, decided without rounding on the CPU: the truth", traits,
+      {}, [](const gpu::Context&, const frame::NoOptions&) { return std::make_unique<JudgedShadow>(); });
 }
 
 SharedReference::SharedReference(const scene::Geometry& geometry, const scene::View& view, Progress progress,
@@ -162,8 +189,9 @@ void SharedReference::prepare() {
 
 void SharedReference::prepare_truth(int refinement) {
   for (std::size_t light = 0; light < lights_.size(); ++light) {
-    if (!load_exact(light, refinement) || !load_surfaces(light)) rays(light);
+    if (!load_exact(light, refinement)) rays(light);
   }
+  if (!load_distance()) rays(0);
 }
 
 reference::Progress SharedReference::report(const std::string& what) const {
@@ -171,14 +199,9 @@ reference::Progress SharedReference::report(const std::string& what) const {
   return [this, what](double fraction) { progress_(what, fraction); };
 }
 
-bool SharedReference::load_surfaces(std::size_t light) {
-  OfLight& of_light = lights_[light];
-  if (of_light.surfaces) return true;
-  auto kept = cache_ ? cache_->load_surfaces(light) : std::nullopt;
-  if (!kept) return false;
-  of_light.surfaces = std::move(kept->image);
-  of_light.surfaces_ms = kept->ms;
-  return true;
+bool SharedReference::load_distance() {
+  if (!distance_ && cache_) distance_ = cache_->load_distance(0);
+  return distance_.has_value();
 }
 
 bool SharedReference::load_exact(std::size_t light, int refinement) {
@@ -190,18 +213,35 @@ bool SharedReference::load_exact(std::size_t light, int refinement) {
   return true;
 }
 
-const reference::SurfaceImage& SharedReference::surfaces(std::size_t light) {
+const std::vector<float>& SharedReference::distance() {
+  if (load_distance()) return *distance_;
+  distance_ = rays(0).surfaces(report("reference, surfaces")).distance;
+  if (cache_) cache_->save_distance(0, *distance_);
+  return *distance_;
+}
+
+const SurfaceVerdicts& SharedReference::verdicts(std::size_t light, const frame::SurfacePoints& points) {
   OfLight& of_light = lights_[light];
-  if (load_surfaces(light)) {
-    work_.kept_ms[light]["surface_query"] += of_light.surfaces_ms;
-    return *of_light.surfaces;
+  SurfaceVerdicts& verdicts = of_light.verdicts;
+  if (of_light.triangles == points.triangles && of_light.points == points.of_light[light]) {
+    work_.kept_ms[light]["surface_query"] += of_light.verdicts_ms;
+    return verdicts;
   }
-  const reference::Reference& reference = rays(light);
+  if (progress_) progress_("reference, surface shadows", 0.0);
   const auto start = Clock::now();
-  of_light.surfaces = reference.surfaces(report("reference, surfaces"));
-  of_light.surfaces_ms = milliseconds_since(start);
-  if (cache_) cache_->save_surfaces(light, {*of_light.surfaces, of_light.surfaces_ms});
-  return *of_light.surfaces;
+  verdicts.assign(points.triangles.size(), std::nullopt);
+  if (const std::vector<reference::SurfacePoint> seen = seen_points(points, light); !seen.empty()) {
+    const reference::Triangles triangles{geometry_.positions, geometry_.triangles};
+    const reference::SurfaceJudge judge(triangles, view_.lights[light], view_.camera.eye);
+    const std::vector<reference::SurfaceVerdict> found = judge.judge(seen);
+    auto verdict = found.begin();
+    for (std::size_t i = 0; i < verdicts.size(); ++i)
+      if (points.triangles[i] != 0) verdicts[i] = *verdict++;
+  }
+  of_light.triangles = points.triangles;
+  of_light.points = points.of_light[light];
+  of_light.verdicts_ms = milliseconds_since(start);
+  return verdicts;
 }
 
 double SharedReference::Work::kept_ms_of(const std::string& stage) const {

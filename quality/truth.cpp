@@ -26,20 +26,19 @@ double unshadowed_airlight(scene::View view) {
 
 }  // namespace
 
-Truth trace_truth(SharedReference& reference, const scene::View& view) {
+Truth trace_truth(SharedReference& reference, const scene::View& view, const frame::SurfacePoints& points) {
   Truth truth;
+  truth.distance = reference.distance();
   TruthFigures& figures = truth.figures;
   double error = 0.0;  // rmse, in the unit of the image
   for (std::size_t light = 0; light < view.lights.size(); ++light) {
     const reference::AirlightImage& airlight = reference.exact(light, 1);
-    const reference::SurfaceImage& surfaces = reference.surfaces(light);
     if (light == 0) {
       truth.airlight = airlight.radiance;
-      truth.distance = surfaces.distance;
     } else {
       for (std::size_t i = 0; i < truth.airlight.size(); ++i) truth.airlight[i] += airlight.radiance[i];
     }
-    truth.visibility.push_back(surfaces.visibility);
+    truth.verdicts.push_back(reference.verdicts(light, points));
     error += airlight.bound * mean(airlight.radiance);  // a sum's rmse is at most the sum of rmse
     figures.ms += airlight.ms;
     figures.shadows_per_pixel += airlight.shadows_per_pixel;

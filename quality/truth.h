@@ -4,6 +4,8 @@
 
 #include <glm/glm.hpp>
 
+#include "frame/surface_points.h"
+#include "quality/metrics.h"
 #include "quality/traced.h"
 #include "scene/scene.h"
 
@@ -34,12 +36,13 @@ struct TruthFigures {
 
 /// What a view's images are judged by: the exact reference, all lights together.
 struct Truth {
-  std::vector<glm::vec3> airlight;             ///< RGB [W/(m² sr)]
-  std::vector<float> distance;                 ///< along the view ray [m]; 0 where nothing is hit
-  std::vector<std::vector<float>> visibility;  ///< of surfaces, for each light: 0 or 1
+  std::vector<glm::vec3> airlight;        ///< RGB [W/(m² sr)]
+  std::vector<float> distance;            ///< along the view ray [m]; 0 where it hits nothing
+  std::vector<SurfaceVerdicts> verdicts;  ///< for each light, on the points that frames of the view shade
   TruthFigures figures;
 };
 
-Truth trace_truth(SharedReference& reference, const scene::View& view);
+/// @param points that frames of the view shade
+Truth trace_truth(SharedReference& reference, const scene::View& view, const frame::SurfacePoints& points);
 
 }  // namespace airlight::quality

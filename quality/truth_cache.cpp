@@ -130,20 +130,16 @@ void TruthCache::save(const std::string& key, Image image) const {
   if (error) throw Error(ExitCode::bad_file, file.string(), "it cannot be written");
 }
 
-std::optional<TruthCache::Surfaces> TruthCache::load_surfaces(std::size_t light) const {
-  std::optional<Image> image = load(key(light, "surfaces"));
+std::optional<std::vector<float>> TruthCache::load_distance(std::size_t light) const {
+  std::optional<Image> image = load(key(light, "distance"));
   if (!image) return {};
-  return Surfaces{{.distance = std::move(image->channels["distance.Y"]),
-                   .visibility = std::move(image->channels["surface.Y"])},
-                  number(*image, "airlight.ms")};
+  return std::move(image->channels["distance.Y"]);
 }
 
-void TruthCache::save_surfaces(std::size_t light, const Surfaces& surfaces) const {
+void TruthCache::save_distance(std::size_t light, const std::vector<float>& distance) const {
   Image image;
-  image.channels["distance.Y"] = surfaces.image.distance;
-  image.channels["surface.Y"] = surfaces.image.visibility;
-  image.metadata["airlight.ms"] = fmt::format("{}", surfaces.ms);
-  save(key(light, "surfaces"), std::move(image));
+  image.channels["distance.Y"] = distance;
+  save(key(light, "distance"), std::move(image));
 }
 
 std::optional<reference::AirlightImage> TruthCache::load_airlight(std::size_t light, int refinement) const {

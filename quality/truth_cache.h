@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "quality/image_io.h"
 #include "reference/reference.h"
@@ -19,15 +20,10 @@ class TruthCache {
   /// @throws scene::Error (bad_file) where it cannot be made
   TruthCache(std::filesystem::path folder, const scene::Geometry& geometry, const scene::View& view);
 
-  struct Surfaces {
-    reference::SurfaceImage image;
-    double ms;  ///< time that tracing took
-  };
-
   // Of one of the view's lights; nothing where the image is not there yet.
   // @throws scene::Error (bad_file) where a file is damaged or cannot be written
-  std::optional<Surfaces> load_surfaces(std::size_t light) const;
-  void save_surfaces(std::size_t light, const Surfaces& surfaces) const;
+  std::optional<std::vector<float>> load_distance(std::size_t light) const;
+  void save_distance(std::size_t light, const std::vector<float>& distance) const;
   std::optional<reference::AirlightImage> load_airlight(std::size_t light, int refinement) const;
   void save_airlight(std::size_t light, int refinement, const reference::AirlightImage& image) const;
 

@@ -214,6 +214,10 @@ INSTANTIATE_TEST_SUITE_P(
                     Misuse{{"compare", "cornell", "--max-error=-1"}, "--max-error"},
                     Misuse{{"compare", "cornell", "--max-error", "nan"}, "--max-error"},
                     Misuse{{"compare", "cornell", "--max-error", "1", "--volume", "none"}, "--max-error"},
+                    Misuse{{"--max-undecided", "1"}, "--max-undecided"},
+                    Misuse{{"compare", "cornell", "--max-undecided=-0.1"}, "--max-undecided"},
+                    Misuse{{"compare", "cornell", "--max-undecided", "1.1"}, "--max-undecided"},
+                    Misuse{{"compare", "cornell", "--max-undecided", "nan"}, "--max-undecided"},
                     Misuse{{"compare", "cornell", "--frames", "0"}, "--frames"},
                     Misuse{{"compare", "cornell", "--volume", "vsv,vsv"}, "twice"}));
 
@@ -832,7 +836,8 @@ TEST_F(SeveralLights, AreComparedTogether) {
   // time.
   const auto kept = std::distance(fs::directory_iterator(file("kept")), fs::directory_iterator());
   const Json alone = compare(joined({{"--volume", "vsv", "--cache", "kept"}, second_}));
-  EXPECT_EQ(std::distance(fs::directory_iterator(file("kept")), fs::directory_iterator()), kept);
+  EXPECT_EQ(std::distance(fs::directory_iterator(file("kept")), fs::directory_iterator()), kept + 1)
+      << "distances are those around a view's first light";
 
   const std::string command = vsv["command"];
   EXPECT_EQ(shell(quality::shell_quote(AIRLIGHT_BINARY) + command.substr(8)).exit_code, 0) << command;
@@ -850,9 +855,9 @@ TEST_F(Compare, ResultsFollowTheirSchema) {
        "none,vsv,vsv:integral=riemann:populate=conservative,vsv:integral=factored:scan=fused:phi-cells=equal,"
        "vsv:populate=screen-space:scan=multi-pass,reference,reference-march:steps=64,"
        "reference-march:steps=64:rays=single",
-       "--surface", "none,shadow-map,vsv,reference", "--debug"});
+       "--surface", "none,shadow-map,vsv,psv,brute,reference", "--debug"});
   EXPECT_THAT(tests::schema_violations(results, schema), IsEmpty());
-  EXPECT_EQ(results["runs"].size(), 32u);
+  EXPECT_EQ(results["runs"].size(), 48u);
 
   // Every field of a view is documented.
   const Json& view = schema.at("properties").at("view").at("properties");
@@ -890,6 +895,7 @@ TEST_F(Compare, WritesEveryImageAndTheReport) {
     EXPECT_EQ(quality::read_exr(file("out/" + name + ".exr")).channels.size(), 8u);
     EXPECT_THAT(read_text(file("out/" + name + ".png")), StartsWith("\x89PNG"));
     EXPECT_THAT(read_text(file("out/" + name + "_error.png")), StartsWith("\x89PNG"));
+    EXPECT_THAT(read_text(file("out/" + name + "_surface.png")), StartsWith("\x89PNG"));
   }
   EXPECT_EQ(quality::read_exr(file("out/reference.exr")).channels.size(), 8u);
   EXPECT_THAT(read_text(file("out/reference.png")), StartsWith("\x89PNG"));
@@ -1002,6 +1008,26 @@ TEST_F(Compare, JudgesByTheReference) {
   EXPECT_FALSE(none.contains("rays"));
 }
 
+TEST_F(Compare, JudgesSurfacesOnTheFramesOwnPoints) {
+  const Json results = compare({"--volume", "none", "--surface", "psv,brute,shadow-map,none,reference"});
+  const auto error = [&](std::size_t run, const char* what) {
+    return results["runs"][run]["error"]["surface"][what].get<int>();
+  };
+  EXPECT_EQ(error(0, "wrong_pixels"), 0);
+  EXPECT_EQ(error(1, "wrong_pixels"), 0);
+  EXPECT_GT(error(3, "wrong_pixels"), 0);
+  EXPECT_EQ(error(4, "wrong_pixels"), 0);
+  for (std::size_t run = 0; run < 5; ++run) {
+    EXPECT_EQ(error(run, "pixels"), error(4, "pixels"));
+    EXPECT_EQ(error(run, "undecided_pixels"), error(4, "undecided_pixels"));
+    EXPECT_LE(error(run, "wrong_pixels"), error(3, "wrong_pixels"));
+  }
+  // The verdicts are charged to the method that shows them.
+  EXPECT_GT(results["runs"][4]["stages_ms"]["surface_query"].get<double>(), 0.0);
+  EXPECT_EQ(quality::read_exr(file("out/reference.exr")).channels.at("surface.Y"),
+            quality::read_exr(file("out/none+reference.exr")).channels.at("surface.Y"));
+}
+
 TEST_F(Compare, EachRunNamesTheCommandThatRepeatsIt) {
   const Json first = compare({"--volume", "vsv,vsv:integral=riemann", "--sigma-s", "0.3"})["runs"][1];
   const std::string command = first["command"];
@@ -1061,6 +1087,22 @@ TEST_F(Compare, MissedAccuracyIsOneAfterEverythingIsWritten) {
   EXPECT_THAT(missed.out, HasSubstr("rrmse %"));
   EXPECT_TRUE(fs::exists(file("out/report.html")));
   EXPECT_EQ(small(lax).exit_code, 0);
+}
+
+TEST_F(Compare, MoreUndecidedSurfacesThanAllowedAreOneAfterEverythingIsWritten) {
+  const Words words = {"compare",   "cornell",  "-o",       "out", "--volume",       "none",
+                       "--surface", "psv,none", "--frames", "1",   "--max-undecided"};
+  Words strict = words, lax = words;
+  strict.push_back("0");
+  lax.push_back("1");
+  const Result missed = small(strict);
+  EXPECT_EQ(missed.exit_code, 1);
+  EXPECT_THAT(missed.err, HasSubstr("airlight: --max-undecided 0: "));
+  EXPECT_THAT(missed.err, HasSubstr("of the surface pixels of none × psv are undecided"));
+  EXPECT_TRUE(fs::exists(file("out/report.html")));
+  EXPECT_EQ(small(lax).exit_code, 0);
+  for (const Json& run : Json::parse(read_text(file("out/results.json")))["runs"])
+    EXPECT_EQ(run["command"].dump().find("--max-undecided"), std::string::npos);
 }
 
 TEST_F(Compare, DefaultsToTheWindowAndItsOwnFolder) {
@@ -1235,11 +1277,25 @@ TEST_F(Paths, AreComparedFrameByFrame) {
     EXPECT_EQ(redrawn[2], has_volume ? volume : nothing) << run["volume"];
     EXPECT_EQ(redrawn[3], nothing) << run["volume"];
     const std::string name = run["name"];
-    for (const std::string& image : {name + "_0004.png", name + "_error_0004.png"})
+    for (const std::string& image :
+         {name + "_0004.png", name + "_error_0004.png", name + "_surface_0004.png"})
       EXPECT_TRUE(fs::exists(file("out/" + image))) << image;
   }
   EXPECT_TRUE(fs::exists(file("out/reference_0004.png")));
   EXPECT_THAT(read_text(file("out/report.html")), HasSubstr("Along the path"));
+}
+
+TEST_F(Paths, HaveTheSurfacesOfEachFrameJudged) {
+  const Json results =
+      compare({"--path", "path.toml", "--volume", "none", "--surface", "psv,reference,none"});
+  for (std::size_t i = 0; i < 5; ++i) {
+    const auto frame = [&](std::size_t run) { return results["runs"][run]["path"]["frames"][i]; };
+    EXPECT_EQ(frame(0)["wrong_pixels"], 0) << i;
+    EXPECT_EQ(frame(1)["wrong_pixels"], 0) << i;
+    EXPECT_GT(frame(2)["wrong_pixels"], 0) << i;
+    EXPECT_EQ(frame(2)["undecided_pixels"], frame(1)["undecided_pixels"]) << i;
+    EXPECT_GT(frame(2)["pixels"], 0) << i;
+  }
 }
 
 TEST_F(Paths, OrdinaryFramesDrawAllOfTheirOwn) {

@@ -271,11 +271,30 @@ TEST(SharedReference, TracesTheTruthOnceAndChargesForItTwice) {
   EXPECT_EQ(second.kept_ms_of("integrate"), first.airlight_ms);
   EXPECT_NE(&shared.exact(0, 2), image);
   EXPECT_EQ(shared.take_work().kept_ms_of("integrate"), 0.0);
+}
 
-  shared.surfaces(0);
+TEST(SharedReference, JudgesPointsAnewUnlessTheyAreThoseOfTheLastTime) {
+  const scene::Geometry geometry = open_triangle();
+  scene::View view;
+  view.camera = {"", {0.2, 0.2, 5}, {0.2, 0.2, 0}, {0, 1, 0}, 45};
+  view.lights[0].position = {0.25, 0.25, 3};
+  view.size = {2, 1};
+  SharedReference shared(geometry, view, {});
+  // The first pixel shows the triangle, whose plane is z = 0; the second nothing.
+  frame::SurfacePoints points{.triangles = {1, 0}, .of_light = {{{0, 0, -3, 1}, {0, 0, 0, -1}}}};
+  const SurfaceVerdicts verdicts = shared.verdicts(0, points);
+  ASSERT_EQ(verdicts.size(), 2u);
+  EXPECT_EQ(verdicts[0], (reference::SurfaceVerdict{reference::Verdict::lit, true}));
+  EXPECT_FALSE(verdicts[1]);
   EXPECT_EQ(shared.take_work().kept_ms_of("surface_query"), 0.0);
-  shared.surfaces(0);
-  EXPECT_GT(shared.take_work().kept_ms_of("surface_query"), 0.0);
+  EXPECT_EQ(shared.verdicts(0, points), verdicts);
+  EXPECT_GT(shared.take_work().kept_ms_of("surface_query"), 0.0) << "charged for what it cost";
+  points = {.triangles = {0, 1}, .of_light = {{{0, 0, 0, -1}, {0, 0, -3, 0}}}};
+  EXPECT_EQ(shared.verdicts(0, points), (SurfaceVerdicts{verdicts[1], verdicts[0]}))
+      << "that the frame takes its plane to part eye and light does not matter";
+  EXPECT_EQ(shared.take_work().kept_ms_of("surface_query"), 0.0);
+  points.of_light[0][1].x = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THROW(shared.verdicts(0, points), scene::Error);
 }
 
 }  // namespace

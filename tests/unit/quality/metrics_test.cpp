@@ -107,19 +107,28 @@ TEST(SameSurfaceError, LeavesOutPixelsThatSeeDifferentSurfaces) {
   EXPECT_TRUE(same_surface_error(x, distance, r, reference_distance, 2.1).is_dark);
 }
 
-TEST(SurfaceError, CountsPixelsThatHitInBothAndDiffer) {
-  const std::vector<float> visibility{1, 0, 1, 0, 0.5f, 1}, distance{1, 1, 0, 1, 1, 1};
-  const std::vector<float> reference{1, 1, 0, 1, 1, 0}, reference_distance{2, 2, 2, 0, 2, 2};
-  const SurfaceError error = surface_error(visibility, distance, reference, reference_distance);
-  EXPECT_EQ(error.pixels, 4u);
-  EXPECT_EQ(error.wrong_pixels, 2u);
+TEST(SurfaceError, CountsWrongAndUndecidedPixelsOfThoseThatShowASurface) {
+  using reference::Verdict;
+  // Two by two pixels: right, wrong, undecided, and none that is seen.
+  const SurfaceVerdicts verdicts{
+      {{Verdict::lit, true}}, {{Verdict::dark, true}}, {{Verdict::lit, false}}, {}};
+  const std::vector<float> visibility{0.5f, 0.5f, 0.0f, 1.0f};
+  const SurfaceError error = surface_error(visibility, verdicts);
+  EXPECT_EQ(error.pixels, 3u);
+  EXPECT_EQ(error.wrong_pixels, 1u);
+  EXPECT_EQ(error.undecided_pixels, 1u);
+  EXPECT_DOUBLE_EQ(error.undecided(), 1.0 / 3.0);
+  // Below a half is dark; an undecided pixel is wrong neither way.
+  const std::vector<float> other{0.49f, 0.49f, 1.0f, 0.0f};
+  EXPECT_EQ(surface_error(other, verdicts).wrong_pixels, 1u);
+  EXPECT_EQ(surface_error(other, verdicts).undecided_pixels, 1u);
+  EXPECT_EQ(surface_error(other, SurfaceVerdicts(4)).undecided(), 0.0) << "nothing is seen";
 }
 
 TEST(SurfaceError, RefusesNaNAndDifferentLengths) {
-  const std::vector<float> good{1, 1}, bad{1, std::numeric_limits<float>::quiet_NaN()}, longer{1, 1, 1};
-  EXPECT_THROW(surface_error(bad, good, good, good), scene::Error);
-  EXPECT_THROW(surface_error(good, good, good, bad), scene::Error);
-  EXPECT_THROW(surface_error(good, good, longer, longer), scene::Error);
+  const std::vector<float> good{1, 1}, bad{1, std::numeric_limits<float>::quiet_NaN()};
+  EXPECT_THROW(surface_error(bad, SurfaceVerdicts(2)), scene::Error);
+  EXPECT_THROW(surface_error(good, SurfaceVerdicts(3)), scene::Error);
 }
 
 }  // namespace

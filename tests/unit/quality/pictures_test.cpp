@@ -51,6 +51,44 @@ TEST(ErrorColours, AreFullAgainstABlackReference) {
   EXPECT_EQ(error_colours({glm::vec3(1e-6f)}, black)[0].g, 0.0f);
 }
 
+TEST(SurfaceColours, MarkWrongAndUndecidedPixels) {
+  using reference::Verdict;
+  const reference::SurfaceVerdict lit{Verdict::lit, true}, dark{Verdict::dark, true},
+      undecided{Verdict::dark, false};
+  frame::FrameImages images;
+  images.size = {3, 2};
+  images.distance = {1, 1, 1, 1, 1, 0};
+  images.visibility = {{1, 0, 1, 0, 1, 0}};
+  images.is_skipped = {false};
+  const std::vector<glm::vec3> colours =
+      surface_colours(images, {{lit, dark, dark, lit, undecided, std::nullopt}});
+  const auto is_grey = [](const glm::vec3& colour) { return colour.r == colour.g && colour.g == colour.b; };
+  EXPECT_TRUE(is_grey(colours[0]) && is_grey(colours[1]));
+  EXPECT_GT(colours[0].r, colours[1].r);
+  EXPECT_GT(colours[1].r, 0.0f) << "a surface in shadow is told from none";
+  const glm::vec3 red = colours[2], yellow = colours[4];
+  EXPECT_GT(red.r, red.g);
+  EXPECT_EQ(colours[3], red);
+  EXPECT_GT(yellow.g, yellow.b);
+  EXPECT_GT(yellow.g, red.g);
+  EXPECT_EQ(colours[5], glm::vec3(0.0f));
+
+  // Of several lights what is wrong for one is red; one that was skipped does not count.
+  images.visibility.push_back(std::vector<float>(6, 0.0f));
+  images.is_skipped.push_back(false);
+  const std::vector<SurfaceVerdicts> both = {{lit, dark, lit, lit, undecided, std::nullopt},
+                                             {undecided, dark, dark, dark, lit, std::nullopt}};
+  const std::vector<glm::vec3> of_both = surface_colours(images, both);
+  EXPECT_EQ(of_both[0], yellow);
+  EXPECT_EQ(of_both[1], colours[1]);
+  EXPECT_FLOAT_EQ(of_both[2].r, 0.5f * (colours[0].r + colours[1].r));
+  EXPECT_EQ(of_both[3], red);
+  EXPECT_EQ(of_both[4], red);
+  images.is_skipped[1] = true;
+  EXPECT_EQ(surface_colours(images, both)[0], colours[0]);
+  EXPECT_EQ(surface_colours(images, both)[4], yellow);
+}
+
 TEST(Frame, HasItsChannelsInAFile) {
   frame::FrameImages images;
   images.size = {1, 1};

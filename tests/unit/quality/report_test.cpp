@@ -26,6 +26,7 @@ Comparison one_run() {
   run.cost.stages_ms = {{"scan", 3.5}};
   run.cost.frame_ms = 1.0;
   run.errors.airlight.rrmse = 0.0005;
+  run.errors.surface = {.wrong_pixels = 12, .undecided_pixels = 345, .pixels = 7654};
   comparison.runs = {run};
   return comparison;
 }
@@ -35,6 +36,8 @@ TEST(Report, ShowsEachRunWithItsImagesAndCommand) {
   EXPECT_THAT(html, HasSubstr("vsv:alpha=64"));
   EXPECT_THAT(html, HasSubstr("src=\"vsv_alpha-64%2Bshadow-map.png\""));
   EXPECT_THAT(html, HasSubstr("src=\"vsv_alpha-64%2Bshadow-map_error.png\""));
+  EXPECT_THAT(html, HasSubstr("src=\"vsv_alpha-64%2Bshadow-map_surface.png\""));
+  EXPECT_THAT(html, HasSubstr("<td>12 / 7654</td><td>345</td>"));
   EXPECT_THAT(html, HasSubstr("src=\"reference.png\""));
   EXPECT_THAT(html, HasSubstr("alpha=64"));
   EXPECT_THAT(html, HasSubstr("surface theta=32"));
@@ -82,6 +85,7 @@ TEST(Report, DrawsTimeAndErrorAlongAPath) {
   EXPECT_THAT(html, HasSubstr("points=\"60.0,100.0 320.0,10.0 580.0,190.0 \""));
   EXPECT_THAT(html, HasSubstr("points=\"60.0,190.0 320.0,190.0 \"")) << "the dark frame has no error";
   EXPECT_THAT(html, HasSubstr("src=\"vsv_alpha-64%2Bshadow-map_error_0001.png\""));
+  EXPECT_THAT(html, HasSubstr("src=\"vsv_alpha-64%2Bshadow-map_surface_0001.png\""));
   EXPECT_THAT(html, HasSubstr("src=\"reference_0001.png\""));
   EXPECT_THAT(html, Not(HasSubstr("src=\"reference.png\"")));
 }

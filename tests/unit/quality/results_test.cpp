@@ -33,6 +33,7 @@ Comparison two_runs() {
   vsv.march_ratio = 5.0;
   vsv.errors.airlight.rrmse = 0.0123;
   vsv.errors.airlight.bias = -0.00042;
+  vsv.errors.surface = {.wrong_pixels = 12, .undecided_pixels = 345, .pixels = 7654};
   Run march = vsv;
   march.volume = "reference-march";
   march.cost.stages_ms = {{"integrate", 20.0}};
@@ -55,6 +56,8 @@ TEST(ResultsJson, KeepsRawFigures) {
             json::array({{{"name", "vsv+shadow-map_grid"}, {"caption", "the grid"}, {"white", 0.5}}}));
   EXPECT_FALSE(results["runs"][1].contains("debug_images"));
   EXPECT_EQ(vsv["error"]["airlight"]["rrmse"], 0.0123);
+  EXPECT_EQ(vsv["error"]["surface"],
+            (json{{"wrong_pixels", 12}, {"undecided_pixels", 345}, {"pixels", 7654}}));
   EXPECT_EQ(vsv["march_ratio"], 5.0);
   EXPECT_FALSE(vsv.contains("rays"));
   EXPECT_EQ(results["runs"][1]["error"]["airlight"]["rrmse"], 0.0005);
@@ -81,6 +84,13 @@ TEST(ResultsTable, ClaimsNoErrorBelowThatOfTheReference) {
   EXPECT_THAT(table, HasSubstr("-0.042"));
   EXPECT_THAT(table, HasSubstr("< 0.1 "));
   EXPECT_THAT(table, testing::Not(HasSubstr(" 0.05 ")));
+}
+
+TEST(ResultsTable, TellsWrongSurfacesFromUndecidedOnes) {
+  const std::string table = results_table(two_runs());
+  EXPECT_THAT(table, testing::ContainsRegex("wrong px +undecided px\n"));
+  EXPECT_THAT(table, testing::ContainsRegex(" 12 +345\n"));
+  EXPECT_THAT(table, HasSubstr("of 7654"));
 }
 
 TEST(ErrorText, IsAPercentageOrABound) {
@@ -110,6 +120,7 @@ Comparison along_a_path() {
   run.path[2].errors.airlight.is_dark = true;
   run.path[2].errors.airlight.rrmse = k_none;
   for (Run::Frame& frame : run.path) frame.errors.same_surface.rrmse = k_none;
+  run.path[1].errors.surface = {.wrong_pixels = 1, .undecided_pixels = 2, .pixels = 3};
   run.worst_frame = 1;
   comparison.runs.resize(1);
   return comparison;
@@ -151,6 +162,9 @@ TEST(Path, IsInResultsAndTable) {
   EXPECT_EQ(path["frames"][0]["redrawn"], (json{"shadow_map", "volume"}));
   EXPECT_EQ(path["frames"][2]["redrawn"], json::array());
   EXPECT_TRUE(path["frames"][2]["rrmse"].is_null());
+  EXPECT_EQ(path["frames"][1]["wrong_pixels"], 1);
+  EXPECT_EQ(path["frames"][1]["undecided_pixels"], 2);
+  EXPECT_EQ(path["frames"][1]["pixels"], 3);
   const std::string table = results_table(along_a_path());
   EXPECT_THAT(table, HasSubstr("path: 3 frames in 3 s"));
   EXPECT_THAT(table, testing::ContainsRegex("all +2 +1 +2 +25.00"));

@@ -34,9 +34,15 @@ class Cache : public testing::Test {
     view_.size = {9, 7};
   }
 
+  /// A frame that shows no surface, which is none of the cache's business.
+  frame::SurfacePoints no_points() const {
+    const auto pixels = static_cast<std::size_t>(view_.size.x) * static_cast<std::size_t>(view_.size.y);
+    return {.triangles = std::vector<std::uint32_t>(pixels),
+            .of_light = std::vector(view_.lights.size(), std::vector<glm::vec4>(pixels))};
+  }
   Truth trace() {
     SharedReference shared(geometry_, view_, {}, folder_);
-    return trace_truth(shared, view_);
+    return trace_truth(shared, view_, no_points());
   }
   std::ptrdiff_t files() const {
     return std::distance(fs::directory_iterator(folder_), fs::directory_iterator());
@@ -49,18 +55,17 @@ class Cache : public testing::Test {
 
 TEST_F(Cache, GivesBackEveryBitWithoutTracing) {
   const Truth traced = trace();
-  EXPECT_EQ(files(), 4) << "airlight and surfaces of two lights";
+  EXPECT_EQ(files(), 3) << "airlight of two lights, and the distances";
   SharedReference shared(geometry_, view_, {}, folder_);
-  const Truth kept = trace_truth(shared, view_);
+  const Truth kept = trace_truth(shared, view_, no_points());
   EXPECT_EQ(kept.airlight, traced.airlight);
   EXPECT_EQ(kept.distance, traced.distance);
-  EXPECT_EQ(kept.visibility, traced.visibility);
   EXPECT_EQ(kept.figures.ms, traced.figures.ms) << "what it cost when it was traced";
   EXPECT_EQ(kept.figures.bound, traced.figures.bound);
   EXPECT_EQ(kept.figures.shadows_per_pixel, traced.figures.shadows_per_pixel);
   EXPECT_EQ(kept.figures.lit_runs_per_pixel, traced.figures.lit_runs_per_pixel);
   EXPECT_EQ(shared.take_work().kept_ms_of("integrate"), kept.figures.ms);
-  EXPECT_EQ(files(), 4);
+  EXPECT_EQ(files(), 3);
 }
 
 TEST_F(Cache, TellsApartWhateverATruthDependsOn) {
@@ -144,17 +149,26 @@ TEST(Truth, OfTwoLightsIsTheSumOfTheirs) {
                  scene::point_light("", {0, 2, 2}, {1, 2, 3})};
   view.size = {9, 7};
   SharedReference both(geometry, view, {});
-  const Truth sum = trace_truth(both, view);
+  // Each pixel shows the same point of the triangle, z = 0, behind which the first light is.
+  const auto points_of = [&](const scene::View& seen) {
+    frame::SurfacePoints points{.triangles = std::vector<std::uint32_t>(9 * 7, 1), .of_light = {}};
+    for (const scene::Light& light : seen.lights)
+      points.of_light.emplace_back(9 * 7, glm::vec4(-light.position, 1.0));
+    return points;
+  };
+  const Truth sum = trace_truth(both, view, points_of(view));
   std::vector<glm::vec3> expected(9 * 7, glm::vec3(0.0f));
   for (const scene::Light& light : view.lights) {
     scene::View alone = view;
     alone.lights = {light};
     SharedReference one(geometry, alone, {});
-    const Truth truth = trace_truth(one, alone);
+    const Truth truth = trace_truth(one, alone, points_of(alone));
     for (std::size_t i = 0; i < expected.size(); ++i) expected[i] += truth.airlight[i];
   }
   EXPECT_EQ(sum.airlight, expected);
-  EXPECT_EQ(sum.visibility.size(), 2u);
+  using reference::Verdict;
+  const reference::SurfaceVerdict dark{Verdict::dark, true}, lit{Verdict::lit, true};
+  EXPECT_EQ(sum.verdicts, (std::vector{SurfaceVerdicts(9 * 7, dark), SurfaceVerdicts(9 * 7, lit)}));
 }
 
 }  // namespace
