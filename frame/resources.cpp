@@ -23,6 +23,7 @@ bool Resources::OfMap::operator==(const OfMap& other) const {
 void Resources::begin_frame(Resting resting) {
   shadow_map_bytes_ = 0;
   used_surface_points_ = false;
+  used_triangle_planes_ = false;
   std::erase_if(light_textures_, [](const auto& texture) { return !texture.second.is_used; });
   for (auto& texture : light_textures_) texture.second.is_used = false;
   resting_ = resting;
@@ -103,6 +104,7 @@ const gpu::Texture& Resources::surface_points(const gpu::Texture& triangles, gpu
 }
 
 const gpu::TexelView& Resources::triangle_planes(gpu::StageTimer& timer) {
+  used_triangle_planes_ = true;
   if (triangle_plane_texels_) return *triangle_plane_texels_;
   timer.time("triangle_planes", [&] {
     const std::vector<std::uint32_t> of_geometry = scene::planes_of(geometry_);
@@ -132,7 +134,7 @@ const scene::Components& Resources::components(gpu::StageTimer& timer) {
 std::map<std::string, std::int64_t> Resources::bytes() const {
   std::map<std::string, std::int64_t> bytes = {{"scene", scene_.bytes()}};
   if (shadow_map_bytes_ > 0) bytes["shadow_map"] = shadow_map_bytes_;
-  if (triangle_plane_texels_) bytes["triangle_planes"] = triangle_planes_.bytes();
+  if (used_triangle_planes_) bytes["triangle_planes"] = triangle_planes_.bytes();
   if (used_surface_points_) bytes["surface_points"] = surface_points_.bytes();
   for (const auto& [texture, on_gpu] : light_textures_)
     if (on_gpu.is_used) bytes["light_texture"] += on_gpu.texels.bytes();

@@ -119,6 +119,7 @@ class Resources {
 
   gpu::Buffer triangle_planes_;
   std::optional<gpu::TexelView> triangle_plane_texels_;
+  bool used_triangle_planes_ = false;  ///< in this frame
   std::optional<SurfacePointPass> surface_point_pass_;
   gpu::Texture surface_points_;
   bool has_surface_points_ = false;   ///< of this light
