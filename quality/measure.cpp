@@ -249,9 +249,6 @@ Measurer::PathMeasurement Measurer::measure_path(
   play(true, true);
   cost.frames = 1;
   if (median(median_times()) <= k_slow_frame_ms) {
-    look_at(views[0]);
-    lend(*reference_, *airlight);
-    lend(*reference_, *shadow);
     warm_up(*shadow, *airlight);
     play(false, true);
     times.assign(views.size(), {});

@@ -3,30 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "frame/blocks.h"
-#include "scene/error.h"
 
 #include "spirv/surface_shadows/occluders_comp.h"
 
 namespace airlight::surface_shadows {
-
-void require_storage_block(const gpu::Context& context, std::int64_t bytes, const std::string& what) {
-  const std::int64_t limit = context.limits().max_storage_block_bytes;
-  if (bytes <= limit) return;
-  throw scene::Error(
-      scene::ExitCode::driver, what,
-      fmt::format("{} bytes are more than this driver's {} (GL_MAX_SHADER_STORAGE_BLOCK_SIZE)", bytes, limit),
-      "render a smaller model, or take another method");
-}
 
 Occluders::Occluders() : program_(gpu::Pipeline::compute(k_occluders_comp)) {}
 
 void Occluders::build(const frame::FrameInputs& inputs) {
   if (scene_ != inputs.scene.id()) {
     const std::int64_t bytes = std::int64_t{3 * sizeof(glm::vec4)} * inputs.scene.triangle_count();
-    require_storage_block(inputs.context, bytes, "the model's triangles");
+    gpu::require_storage_block(inputs.context.limits(), bytes, "the model's triangles", k_storage_remedy);
     corners_ = gpu::Buffer(bytes);
     corner_texels_ = {inputs.context.limits(), corners_, gpu::Format::rgba32f, "the model's triangles"};
     scene_ = inputs.scene.id();

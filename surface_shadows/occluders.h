@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 
 #include "frame/methods.h"
 #include "gpu/buffer.h"
@@ -42,8 +41,7 @@ class Occluders {
   float scale_ = 1.0f, reach_ = 0.0f;
 };
 
-/// @throws scene::Error (driver) naming the limit where `what`, of so many bytes, is more than the driver's
-/// storage blocks hold
-void require_storage_block(const gpu::Context& context, std::int64_t bytes, const std::string& what);
+/// What to do about a model whose triangles one storage block does not hold.
+inline constexpr const char* k_storage_remedy = "render a smaller model, or take another method";
 
 }  // namespace airlight::surface_shadows

@@ -31,7 +31,9 @@ void Psv::build(const frame::FrameInputs& inputs) {
   const std::uint32_t count = inputs.scene.triangle_count();
   if (scene_ != inputs.scene.id()) {
     const std::int64_t nodes = 4 * std::int64_t{count}, node = sizeof(glm::vec4);
-    require_storage_block(inputs.context, node * (nodes + 1), "the tree of the model's triangles");
+    const gpu::Limits& limits = inputs.context.limits();
+    gpu::require_storage_block(limits, node * (nodes + 1), "the tree of the model's triangles",
+                               k_storage_remedy);
     std::vector<std::uint32_t> order(count);
     std::iota(order.begin(), order.end(), 0u);
     if (options_.order == InsertionOrder::random)
@@ -39,7 +41,6 @@ void Psv::build(const frame::FrameInputs& inputs) {
     order_ = gpu::Buffer::from(std::span<const std::uint32_t>(order));
     planes_ = gpu::Buffer(node * nodes);
     links_ = gpu::Buffer(node * (nodes + 1));
-    const gpu::Limits& limits = inputs.context.limits();
     order_texels_ = {limits, order_, gpu::Format::r32ui, "the model's triangles"};
     plane_texels_ = {limits, planes_, gpu::Format::rgba32f, "the tree of the model's triangles"};
     link_texels_ = {limits, links_, gpu::Format::rgba32ui, "the tree of the model's triangles"};

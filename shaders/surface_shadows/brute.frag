@@ -16,10 +16,6 @@ void main() {
   visibility = 0.0;
   if (point.w > 0.0) {
     uint own_plane = plane_of(texelFetch(triangle_plus_one, pixel, 0).r - 1u);
-    vec3 scaled = scale * point.xyz;
-    bool is_hidden = false;
-    for (uint triangle = 0u; triangle < triangle_count && !is_hidden; ++triangle)
-      if (least_distance_of(triangle) >= 0.0) is_hidden = hides_surface(light_rays(), triangle, scaled, own_plane);
-    visibility = is_hidden ? 0.0 : 1.0;
+    visibility = any_hides_surface(light_rays(), triangle_count, scale * point.xyz, own_plane) ? 0.0 : 1.0;
   }
 }

@@ -14,8 +14,6 @@ layout(std430, binding = k_tree_links_storage) coherent buffer Links { uint link
 layout(location = 0) uniform uint triangle_count;
 layout(location = 1) uniform float scene_reach;
 
-const uint k_none = 0xffffffffu;
-
 void main() {
   uint place_in_order = gl_GlobalInvocationID.x;
   if (place_in_order >= triangle_count) return;
@@ -35,7 +33,7 @@ void main() {
       // Read before another invocation wrote, it may be 0 no longer.
       if (child == 0u) child = atomicCompSwap(links[place], 0u, triangle + 1u);
       is_inserted = child == 0u;
-      node = 4u * (child - 1u);
+      node = first_node_of(child);
     } else {
       uint k = node & 3u;
       vec4 plane = texelFetch(planes, int(node));

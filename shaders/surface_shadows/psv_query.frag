@@ -18,8 +18,6 @@ layout(constant_id = 0) const bool k_counts = false;  // writes how many nodes w
 layout(constant_id = 1) const bool k_uses_wedge = true;
 layout(constant_id = 2) const uint k_stack = 32;
 
-const uint k_none = 0xffffffffu;
-
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec4 point_and_facing = texelFetch(surface_points, pixel, 0);
@@ -37,8 +35,7 @@ void main() {
   bool has_overflowed = false;
   bool is_hidden = false;
   float visited = 0.0;
-  uint root = texelFetch(links, 0).x;
-  uint node = root == 0u ? k_none : 4u * (root - 1u);
+  uint node = first_node_of(texelFetch(links, 0).x);
   while (node != k_none) {
     visited += 1.0;
     bool is_last = (node & 3u) == 3u;
@@ -62,10 +59,9 @@ void main() {
       may_be_intersected = abs(height) <= (rays.is_sun ? wedge : wedge * distance) * 1.00001 + height_error;
     }
     // The children that follow, the last of them at once, the others later.
-    uint inside = may_be_inside ? (is_last ? (link[k_inside_of_last] == 0u ? k_none : 4u * (link[k_inside_of_last] - 1u)) : node + 1u)
-                                : k_none;
-    uint outside = may_be_outside && link[k_outside] != 0u ? 4u * (link[k_outside] - 1u) : k_none;
-    uint intersected = may_be_intersected && link[k_intersected] != 0u ? 4u * (link[k_intersected] - 1u) : k_none;
+    uint inside = !may_be_inside ? k_none : is_last ? first_node_of(link[k_inside_of_last]) : node + 1u;
+    uint outside = may_be_outside ? first_node_of(link[k_outside]) : k_none;
+    uint intersected = may_be_intersected ? first_node_of(link[k_intersected]) : k_none;
     node = inside;
     for (uint i = 0u; i < 2u; ++i) {
       uint child = i == 0u ? outside : intersected;
@@ -83,11 +79,7 @@ void main() {
     if (is_hidden) node = k_none;
   }
   // Some nodes were not visited: ask all triangles.
-  if (has_overflowed) {
-    for (uint triangle = 0u; triangle < scene_of_tree.x && !is_hidden; ++triangle) {
-      if (least_distance_of(triangle) >= 0.0) is_hidden = hides_surface(rays, triangle, point, own_plane);
-    }
-  }
+  if (has_overflowed && !is_hidden) is_hidden = any_hides_surface(rays, scene_of_tree.x, point, own_plane);
   if (k_counts) {
     visibility = visited;
   } else {

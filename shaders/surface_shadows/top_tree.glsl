@@ -26,6 +26,12 @@ const uint k_slack_of_edge = 3u;
 const uint k_slack_of_last = 2u;
 const uint k_inside_of_last = 3u;
 
+// No node.
+const uint k_none = 0xffffffffu;
+
+// Where a link leads.
+uint first_node_of(uint triangle_plus_one) { return triangle_plus_one == 0u ? k_none : 4u * (triangle_plus_one - 1u); }
+
 // Of what rounding leaves of a sum of three products and an offset, of its terms' size: 5 · 2⁻²³.
 const float k_height_error = 6e-7;
 

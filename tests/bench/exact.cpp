@@ -1,5 +1,4 @@
-// Exact surface shadows on models under random lights and views: wrong and undecided pixels, nodes a pixel,
-// bytes.
+// Exact surface shadows on models under random lights and views: wrong and undecided pixels, nodes a pixel.
 //
 // `airlight_exact [--size N] [--scale S] [--offset X] MODEL...`: built-in scenes or files. Of each, ten views
 // of N×N pixels (default 1024), from inside and outside, under lamps inside, outside, close to the ground and
@@ -9,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <memory>
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -19,9 +18,9 @@
 #include "frame/none.h"
 #include "frame/point_reader.h"
 #include "gpu/context.h"
-#include "reference/surface_judge.h"
+#include "quality/metrics.h"
+#include "quality/traced.h"
 #include "scene/builtin.h"
-#include "scene/error.h"
 #include "scene/import.h"
 #include "support/random.h"
 #include "surface_shadows/psv.h"
@@ -103,7 +102,6 @@ std::vector<float> visibility_by(frame::Frame& frame, const scene::View& view, f
 
 Row measure(gpu::Context& context, const scene::Geometry& geometry, int size) {
   Row row;
-  const reference::Triangles triangles{geometry.positions, geometry.triangles};
   const scene::Box box = scene::bounds(geometry);
   frame::Frame frame(context, geometry, 2048);
   CountedPsv psv(surface_shadows::PsvOptions{});
@@ -113,31 +111,21 @@ Row measure(gpu::Context& context, const scene::Geometry& geometry, int size) {
     const scene::View view = view_number(i, box, size, random);
     frame::PointReader reader;
     visibility_by(frame, view, reader);
-    const frame::SurfacePoints& seen = reader.points();
     const std::vector<float> exact = visibility_by(frame, view, psv),
                              by_map = visibility_by(frame, view, shadow_map);
-    const reference::SurfaceJudge judge(triangles, view.lights[0], view.camera.eye);
-    std::vector<reference::SurfacePoint> points;
-    std::vector<std::size_t> pixels;
+    quality::SharedReference reference(geometry, view, {});
+    const quality::SurfaceVerdicts& verdicts = reference.verdicts(0, reader.points());
+    const quality::SurfaceError error = quality::surface_error(exact, verdicts);
+    row.pixels += error.pixels;
+    row.wrong += error.wrong_pixels;
+    row.undecided += error.undecided_pixels;
+    row.wrong_by_map += quality::surface_error(by_map, verdicts).wrong_pixels;
     for (std::size_t pixel = 0; pixel < exact.size(); ++pixel) {
-      if (seen.triangles[pixel] == 0) continue;
-      points.push_back({glm::vec3(seen.of_light[0][pixel]), seen.triangles[pixel] - 1});
-      pixels.push_back(pixel);
+      if (!verdicts[pixel]) continue;
       row.nodes += static_cast<double>(psv.nodes[pixel]);
       row.most_nodes = std::max(row.most_nodes, psv.nodes[pixel]);
-    }
-    const std::vector<reference::SurfaceVerdict> verdicts = judge.judge(points);
-    row.pixels += points.size();
-    for (std::size_t at = 0; at < points.size(); ++at) {
-      const float expected = verdicts[at].verdict == reference::Verdict::lit ? 1.0f : 0.0f;
-      if (!verdicts[at].is_decided) {
-        ++row.undecided;
-        continue;
-      }
-      row.wrong_by_map += by_map[pixels[at]] != expected ? 1 : 0;
-      if (exact[pixels[at]] == expected) continue;
-      ++row.wrong;
-      fmt::print(stderr, "view {}, pixel {}: {} instead of {}\n", i, pixels[at], exact[pixels[at]], expected);
+      if (quality::is_wrong(exact[pixel], *verdicts[pixel]))
+        fmt::print(stderr, "view {}, pixel {} is {}\n", i, pixel, exact[pixel]);
     }
   }
   row.nodes /= static_cast<double>(std::max<std::size_t>(row.pixels, 1));
@@ -163,7 +151,7 @@ void run(std::vector<std::string> words) {
     else
       models.push_back(words[i]);
   }
-  const std::unique_ptr<gpu::Context> context = std::make_unique<gpu::Context>();
+  gpu::Context context;
   fmt::print("{:<32} {:>10} {:>10} {:>8} {:>10} {:>10} {:>8} {:>8}\n", "model", "triangles", "pixels",
              "wrong", "undecided", "map wrong", "nodes", "most");
   for (const std::string& model : models) {
@@ -172,7 +160,7 @@ void run(std::vector<std::string> words) {
     const double moved = offset * static_cast<double>(glm::length(box.upper - box.lower));
     for (glm::vec3& position : geometry.positions)
       position = glm::vec3(scale * (glm::dvec3(position) + moved));
-    const Row row = measure(*context, geometry, size);
+    const Row row = measure(context, geometry, size);
     fmt::print("{:<32} {:>10} {:>10} {:>8} {:>10} {:>10} {:>8.1f} {:>8}\n",
                model.substr(model.rfind('/') + 1), geometry.triangles.size(), row.pixels, row.wrong,
                row.undecided, row.wrong_by_map, row.nodes, row.most_nodes);

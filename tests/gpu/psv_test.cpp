@@ -11,7 +11,8 @@
 #include "frame/frame.h"
 #include "frame/none.h"
 #include "frame/point_reader.h"
-#include "reference/surface_judge.h"
+#include "quality/metrics.h"
+#include "quality/traced.h"
 #include "support/frame_probe.h"
 #include "support/gpu_context.h"
 #include "support/random.h"
@@ -119,26 +120,13 @@ TEST_P(Psvs, AnswerWhatAskingEveryTriangleDoes) {
 
 /// How many of the points that a frame shades a method has wrong, of those that rounding leaves decided.
 std::size_t count_wrong(const scene::Geometry& geometry, const scene::View& view,
-                        const std::vector<float>& visibility) {
-  frame::Frame frame(gpu_context(), geometry, 16);
+                        const std::vector<float>& seen) {
   frame::PointReader reader;
-  frame::NoAirlight no_airlight;
-  gpu::StageTimer timer(nullptr);
-  frame.render(view, reader, no_airlight, timer);
-  const frame::SurfacePoints& seen = reader.points();
-  const reference::Triangles triangles{geometry.positions, geometry.triangles};
-  const reference::SurfaceJudge judge(triangles, view.lights[0], view.camera.eye);
-  std::size_t wrong = 0, undecided = 0;
-  for (std::size_t i = 0; i < visibility.size(); ++i) {
-    if (seen.triangles[i] == 0) continue;
-    const reference::SurfaceVerdict verdict =
-        judge.judge({glm::vec3(seen.of_light[0][i]), seen.triangles[i] - 1});
-    const bool is_lit = verdict.verdict == reference::Verdict::lit;
-    undecided += verdict.is_decided ? 0 : 1;
-    wrong += verdict.is_decided && is_lit != (visibility[i] == 1.0f) ? 1 : 0;
-  }
-  EXPECT_LT(undecided, visibility.size() / 50);
-  return wrong;
+  visibility(geometry, view, reader);
+  quality::SharedReference reference(geometry, view, {});
+  const quality::SurfaceError error = quality::surface_error(seen, reference.verdicts(0, reader.points()));
+  EXPECT_LT(error.undecided_pixels, seen.size() / 50);
+  return error.wrong_pixels;
 }
 
 TEST_P(Psvs, AreRightWhereTheJudgeIsSure) {
