@@ -73,11 +73,48 @@ FUNCTION float side_of_plane(IN(vec3) a, IN(vec3) b, IN(vec3) c, IN(vec3) point)
   return determinant_sign_64(dvec3(b) - origin, dvec3(c) - origin, dvec3(point) - origin);
 }
 
-// The predicate.
+// The predicate, for triangles that let nothing through: to touch one is to be hidden.
 FUNCTION bool hides(IN(LightRays) rays, IN(Occluder) triangle, IN(vec3) point) {
   return side_of_edge(rays, triangle.a, triangle.b, point) >= 0.0f && side_of_edge(rays, triangle.b, triangle.c, point) >= 0.0f &&
          side_of_edge(rays, triangle.c, triangle.a, point) >= 0.0f &&
          side_of_plane(triangle.a, triangle.b, triangle.c, point) > 0.0f;
+}
+
+// On which side of the plane through the light and an edge a point counts that lies on it: the one to which the plane's normal shows
+// by its first component that is not 0. So does a point that is moved a little along x, less along y and least along z.
+// 0 of an edge that the light sees as a point. Products of two floats are exact in double precision, and so is the sign of a
+// difference of two; under a sun they are rounded, for all triangles alike.
+FUNCTION float side_of_plane_of_edge(IN(LightRays) rays, IN(vec3) from, IN(vec3) to) {
+  bool is_turned = comes_before(to, from);
+  dvec3 u = dvec3(is_turned ? to : from);
+  dvec3 v = dvec3(is_turned ? from : to);
+  if (rays.is_sun) {
+    v = v - u;
+    u = dvec3(rays.travels);
+  }
+  PRECISE dvec3 first = dvec3(u.y * v.z, u.z * v.x, u.x * v.y);
+  PRECISE dvec3 second = dvec3(u.z * v.y, u.x * v.z, u.y * v.x);
+  float side = 0.0f;
+  for (int i = 0; i < 3; ++i)
+    if (side == 0.0f) side = first[i] > second[i] ? 1.0f : first[i] < second[i] ? -1.0f : 0.0f;
+  return is_turned ? -side : side;
+}
+
+// Whether the light's ray to a point crosses a triangle, where each is counted: of the triangles that share an edge or a corner
+// that the ray meets, the ray crosses one of each sheet.
+FUNCTION bool crosses(IN(LightRays) rays, IN(Occluder) triangle, IN(vec3) point) {
+  vec3 corners[4];
+  corners[0] = triangle.a;
+  corners[1] = triangle.b;
+  corners[2] = triangle.c;
+  corners[3] = triangle.a;
+  bool is_between = true;
+  for (int i = 0; i < 3; ++i) {
+    float side = side_of_edge(rays, corners[i], corners[i + 1], point);
+    if (side == 0.0f) side = side_of_plane_of_edge(rays, corners[i], corners[i + 1]);
+    is_between = is_between && side > 0.0f;
+  }
+  return is_between && side_of_plane(triangle.a, triangle.b, triangle.c, point) > 0.0f;
 }
 
 // Whether the plane of a triangle parts the eye from the light: what is seen of it then turns its back to the light.

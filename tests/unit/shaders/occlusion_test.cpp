@@ -1,5 +1,9 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -70,6 +74,83 @@ TEST(Occlusion, OfNeighboursLeavesNoGapAtTheirEdge) {
             : 1;
   }
   EXPECT_GT(close, 1000) << "cases that single precision cannot tell";
+}
+
+/// Fans of triangles about corners: a sphere of 8 · 16 · 16 right triangles on a grid of round numbers, so
+/// that points can be in line with its edges and corners exactly.
+std::vector<std::array<vec3, 3>> round_ball() {
+  constexpr int k_cells = 4;
+  std::vector<std::array<vec3, 3>> triangles;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const float side : {-1.0f, 1.0f}) {
+      for (int i = 0; i < 2 * k_cells * k_cells * 2; ++i) {
+        const int u = i / 2 % (2 * k_cells) - k_cells, v = i / 2 / (2 * k_cells) * 2 - k_cells;
+        const auto at = [&](int du, int dv) {
+          vec3 corner(0.0f);
+          corner[axis] = side * k_cells;
+          corner[(axis + 1) % 3] = static_cast<float>(u + du);
+          corner[(axis + 2) % 3] = static_cast<float>(v + dv);
+          return corner;
+        };
+        std::array<vec3, 3> triangle =
+            i % 2 == 0 ? std::array{at(0, 0), at(1, 0), at(1, 2)} : std::array{at(0, 0), at(1, 2), at(0, 2)};
+        if (side < 0) std::swap(triangle[1], triangle[2]);
+        triangles.push_back(triangle);
+      }
+    }
+  }
+  return triangles;
+}
+
+/// How often the way to a point crosses triangles from their backs, and from their fronts.
+glm::ivec2 crossings(const LightRays& rays, const std::vector<std::array<vec3, 3>>& triangles,
+                     const vec3& point) {
+  glm::ivec2 count(0);
+  for (const auto& [a, b, c] : triangles) {
+    const float turn = turn_of(rays, a, b, c);
+    if (turn != 0.0f && crosses(rays, turned(rays, a, b, c), point)) ++count[turn > 0.0f ? 0 : 1];
+  }
+  return count;
+}
+
+TEST(Crossings, OfASheetAreOneThroughEdgesAndCorners) {
+  const auto ball = round_ball();
+  int touched = 0;
+  for (const auto& [a, b, c] : ball) {
+    for (const vec3& target : {a, b, c, (a + b) / 2.0f, (b + c) / 2.0f, (c + a) / 2.0f, (a + b + c) / 4.0f}) {
+      EXPECT_EQ(crossings(k_lamp, ball, 3.0f * target), glm::ivec2(1, 0)) << target.x << target.y << target.z;
+      for (const auto& [d, e, f] : ball) touched += hides(k_lamp, turned(k_lamp, d, e, f), 3.0f * target);
+    }
+  }
+  EXPECT_GT(touched, 2 * 7 * static_cast<int>(ball.size())) << "most of them touch several triangles";
+}
+
+TEST(Crossings, OfASolidAreAsManyInAsOut) {
+  const auto ball = round_ball();
+  tests::Random random(4);
+  for (int i = 0; i < 40; ++i) {
+    // Directions and lamps on which corners and edges line up, and others.
+    const bool is_round = i % 2 == 0;
+    const vec3 travels = is_round ? vec3(i / 2 % 3 - 1, i / 6 % 3 - 1, 1) : vec3(random.direction());
+    const LightRays sun = {travels, true};
+    const vec3 lamp = is_round ? vec3(i % 5 - 2, 3 * (i % 3), 12) : 12.0f * vec3(random.direction());
+    auto moved = ball;
+    for (auto& triangle : moved)
+      for (vec3& corner : triangle) corner -= lamp;
+    glm::ivec2 by_sun(0), by_lamp(0);
+    for (std::size_t t = 0; t < ball.size(); t += 3) {
+      const vec3& corner = ball[t][0];
+      const glm::ivec2 sun_count = crossings(sun, ball, corner + 100.0f * travels),
+                       lamp_count = crossings(k_lamp, moved, 64.0f * moved[t][0]);
+      EXPECT_EQ(sun_count.x, sun_count.y) << i << ", " << t;
+      EXPECT_EQ(lamp_count.x, lamp_count.y) << i << ", " << t;
+      EXPECT_LE(std::max(sun_count.x, lamp_count.x), 1);
+      by_sun += sun_count;
+      by_lamp += lamp_count;
+    }
+    EXPECT_GT(by_sun.x, 20);
+    EXPECT_GT(by_lamp.x, 20);
+  }
 }
 
 TEST(Determinant, InSinglePrecisionIsRightOrSaysNothing) {
