@@ -55,13 +55,7 @@ PopulateScreenSpace::PopulateScreenSpace(const gpu::Limits& limits, const Grid& 
 void PopulateScreenSpace::load(const frame::FrameInputs& inputs) {
   const scene::Geometry& geometry = inputs.geometry();
   const scene::Components& components = inputs.components();
-  std::vector<scene::Box> boxes(components.count);
-  for (std::size_t t = 0; t < geometry.triangles.size(); ++t) {
-    const glm::uvec3 triangle = geometry.triangles[t];
-    for (const glm::uint corner : {triangle.x, triangle.y, triangle.z})
-      boxes[components.of_triangle[t]].include(geometry.positions[corner]);
-  }
-  const std::vector<std::uint32_t> pass_of_component = deal_apart(boxes);
+  const std::vector<std::uint32_t> pass_of_component = deal_apart(scene::boxes_of(components, geometry));
   const auto pass_of = [&](std::uint32_t triangle) {
     return pass_of_component[components.of_triangle[triangle]];
   };

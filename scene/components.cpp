@@ -23,16 +23,34 @@ class Sets {
   std::vector<std::uint32_t> parent_;
 };
 
+/// How much more often the triangles of an edge go along it from its lower to its upper end than back.
+int imbalance(const Geometry& geometry, const Edges& edges, const Edges::Edge& edge) {
+  if (edge.lower == edge.upper) return 0;
+  int result = 0;
+  const auto triangles = edges.triangles_of(edge);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    if (i > 0 && triangles[i] == triangles[i - 1]) continue;  // a triangle that goes along it twice
+    for (int side = 0; side < 3; ++side) {
+      const std::uint32_t from = edges.position_of_vertex[geometry.triangles[triangles[i]][side]],
+                          to = edges.position_of_vertex[geometry.triangles[triangles[i]][(side + 1) % 3]];
+      if (from == edge.lower && to == edge.upper) ++result;
+      if (from == edge.upper && to == edge.lower) --result;
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 Components find_components(const Geometry& geometry, const Edges& edges) {
   // Join what shares an edge; note the edges that no solid has.
   Components result;
   Sets sets(geometry.triangles.size());
-  std::vector<std::uint32_t> at_gap;
+  std::vector<std::uint32_t> at_gap, at_turn;
   for (const Edges::Edge& edge : edges.edges) {
     const auto triangles = edges.triangles_of(edge);
     for (const std::uint32_t triangle : triangles) sets.join(triangle, triangles[0]);
+    if (imbalance(geometry, edges, edge) != 0) at_turn.push_back(triangles[0]);
     if (edge.count % 2 == 0) continue;
     ++(edge.count == 1 ? result.open_edges : result.odd_edges);
     at_gap.push_back(triangles[0]);
@@ -59,10 +77,22 @@ Components find_components(const Geometry& geometry, const Edges& edges) {
     if (number == k_none) number = static_cast<std::uint32_t>(result.count++);
     result.of_triangle.push_back(number);
   }
+  result.has_two_sides.assign(result.count, true);
+  for (const std::uint32_t triangle : at_turn) result.has_two_sides[result.of_triangle[triangle]] = false;
   std::vector<bool> is_open(result.count, false);
   for (const std::uint32_t triangle : at_gap) is_open[result.of_triangle[triangle]] = true;
   result.open_components = static_cast<std::size_t>(std::count(is_open.begin(), is_open.end(), true));
   return result;
+}
+
+std::vector<Box> boxes_of(const Components& components, const Geometry& geometry) {
+  std::vector<Box> boxes(components.count);
+  for (std::size_t t = 0; t < geometry.triangles.size(); ++t) {
+    const glm::uvec3 triangle = geometry.triangles[t];
+    for (const glm::uint corner : {triangle.x, triangle.y, triangle.z})
+      boxes[components.of_triangle[t]].include(geometry.positions[corner]);
+  }
+  return boxes;
 }
 
 std::string describe_gaps(const Components& components) {

@@ -58,9 +58,9 @@ inline scene::View view_of_level_plane(glm::dvec3 light) {
 inline void add_box(scene::Geometry& geometry, glm::vec3 lower, glm::vec3 upper) {
   const glm::vec3 size = upper - lower;
   const glm::vec3 x(size.x, 0, 0), y(0, size.y, 0), z(0, 0, size.z);
-  add_quad(geometry, lower, x, y);
-  add_quad(geometry, lower, y, z);
-  add_quad(geometry, lower, z, x);
+  add_quad(geometry, lower, y, x);
+  add_quad(geometry, lower, z, y);
+  add_quad(geometry, lower, x, z);
   add_quad(geometry, lower + z, x, y);
   add_quad(geometry, lower + x, y, z);
   add_quad(geometry, lower + y, z, x);

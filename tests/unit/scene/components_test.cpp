@@ -27,6 +27,21 @@ TEST(Components, BoxesApartAreWatertight) {
   for (std::size_t t = 0; t < 24; ++t) EXPECT_EQ(components.of_triangle[t], t / 12);
 }
 
+TEST(Components, HaveTwoSidesWhereEdgesAreGoneAlongBothWays) {
+  Geometry geometry;
+  for (const float x : {0.0f, 2.0f, 4.0f, 6.0f}) add_box(geometry, {x, 0, 0}, {x + 1, 1, 1});
+  std::swap(geometry.triangles[14].x, geometry.triangles[14].y);  // of the second, one turned round
+  for (std::size_t t = 24; t < 36; ++t)                           // of the third, all
+    std::swap(geometry.triangles[t].x, geometry.triangles[t].y);
+  geometry.triangles.pop_back();                                   // of the fourth, one missing
+  tests::add_triangle(geometry, {9, 0, 0}, {9, 0, 0}, {9, 1, 0});  // a degenerate one, for itself
+  const Components components = components_of(geometry);
+  EXPECT_THAT(components.has_two_sides, testing::ElementsAre(true, false, true, false, true));
+  const std::vector<Box> boxes = boxes_of(components, geometry);
+  EXPECT_EQ(boxes.at(2).lower, glm::vec3(4, 0, 0));
+  EXPECT_EQ(boxes.at(2).upper, glm::vec3(5, 1, 1));
+}
+
 TEST(Components, MissingTriangleLeavesThreeOpenEdges) {
   Geometry geometry;
   add_box(geometry, {0, 0, 0}, {1, 1, 1});
