@@ -33,6 +33,10 @@ CONST uint k_triangle_planes_unit = 13u;
 CONST uint k_tree_planes_unit = 14u;  // … its planes, …
 CONST uint k_tree_links_unit = 15u;   // … and where they lead: surface_shadows/top_tree.glsl
 
+CONST uint k_parts_unit = 14u;        // While occluders are made: which part a triangle is of, …
+CONST uint k_is_culled_unit = 15u;    // … and which parts are culled
+CONST uint k_subtrees_unit = 7u;      // While a tree is asked: what is known of its subtrees
+
 // Storage buffers
 CONST uint k_phi_range_storage = 0u;  // epipolar/phi_range.glsl
 CONST uint k_grid_storage = 1u;
@@ -44,5 +48,6 @@ CONST uint k_table_storage = 6u;
 CONST uint k_occluders_storage = 1u;  // as above
 CONST uint k_tree_planes_storage = 2u;
 CONST uint k_tree_links_storage = 3u;
+CONST uint k_subtrees_storage = 4u;
 
 #endif

@@ -6,7 +6,7 @@
 
 namespace airlight::surface_shadows {
 
-Brute::Brute() : pass_(k_brute_frag) {}
+Brute::Brute(const BruteOptions& options) : occluders_(options.cull), pass_(k_brute_frag) {}
 
 void Brute::query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) {
   const gpu::Texture& points = inputs.surface_points();
@@ -23,10 +23,10 @@ void Brute::query(const frame::FrameInputs& inputs, const gpu::Texture& visibili
 }
 
 frame::SurfaceMethod brute_method() {
-  return frame::describe<frame::SurfaceShadow, frame::NoOptions>(
+  return frame::describe<frame::SurfaceShadow, BruteOptions>(
       "brute", "every triangle is asked whether it hides the pixel's point: exact, for small scenes",
-      {.is_exact = true}, {},
-      [](const gpu::Context&, const frame::NoOptions&) { return std::make_unique<Brute>(); });
+      {.is_exact = true}, {culling_option(&BruteOptions::cull)},
+      [](const gpu::Context&, const BruteOptions& options) { return std::make_unique<Brute>(options); });
 }
 
 }  // namespace airlight::surface_shadows

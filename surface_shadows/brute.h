@@ -6,11 +6,15 @@
 
 namespace airlight::surface_shadows {
 
+struct BruteOptions {
+  Culling cull = Culling::none;
+};
+
 /// `brute`: asks the predicate of every triangle, in the order of their numbers. What other exact methods
 /// must answer alike, bit for bit.
 class Brute : public frame::SurfaceShadow {
  public:
-  Brute();
+  explicit Brute(const BruteOptions& options);
   void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override;
   std::map<std::string, std::int64_t> bytes() const override { return {{"occluders", occluders_.bytes()}}; }
 

@@ -1,6 +1,7 @@
 #include "surface_shadows/occluders.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "frame/blocks.h"
@@ -9,17 +10,61 @@
 
 namespace airlight::surface_shadows {
 
-Occluders::Occluders() : program_(gpu::Pipeline::compute(k_occluders_comp)) {}
+Occluders::Occluders(Culling culling)
+    : culling_(culling),
+      program_(gpu::Pipeline::compute(
+          k_occluders_comp, std::array{gpu::Constant(0, culling == Culling::automatic ? 1u : 0u)})) {}
+
+void Occluders::load(const frame::FrameInputs& inputs) {
+  const gpu::Limits& limits = inputs.context.limits();
+  const std::int64_t bytes = std::int64_t{3 * sizeof(glm::vec4)} * inputs.scene.triangle_count();
+  gpu::require_storage_block(limits, bytes, "the model's triangles", k_storage_remedy);
+  corners_ = gpu::Buffer(bytes);
+  corner_texels_ = {limits, corners_, gpu::Format::rgba32f, "the model's triangles"};
+  scene_ = inputs.scene.id();
+  count_ = inputs.scene.triangle_count();
+  if (culling_ == Culling::none) return;
+
+  const scene::Components& components = inputs.components();
+  const std::vector<scene::Box> boxes = scene::boxes_of(components, inputs.geometry());
+  std::vector<std::uint32_t> number(components.count);
+  boxes_.clear();
+  for (std::size_t i = 0; i < components.count; ++i) {
+    number[i] = static_cast<std::uint32_t>(boxes_.size());
+    if (components.has_two_sides[i]) boxes_.push_back(boxes[i]);
+  }
+  for (std::size_t i = 0; i < components.count; ++i)
+    if (!components.has_two_sides[i]) number[i] = static_cast<std::uint32_t>(boxes_.size());
+  std::vector<std::uint32_t> parts;
+  parts.reserve(count_);
+  for (const std::uint32_t triangle : inputs.scene.order())
+    parts.push_back(number[components.of_triangle[triangle]]);
+  parts_ = gpu::Buffer::from(std::span<const std::uint32_t>(parts));
+  is_culled_ = gpu::Buffer(static_cast<std::int64_t>(sizeof(std::uint32_t) * (boxes_.size() + 1)));
+  part_texels_ = {limits, parts_, gpu::Format::r32ui, "the model's triangles"};
+  is_culled_texels_ = {limits, is_culled_, gpu::Format::r32ui, "the model's parts"};
+}
+
+void Occluders::cull_parts(const frame::FrameInputs& inputs) const {
+  const glm::dvec3 eye = inputs.view.camera.eye;
+  const scene::Light& light = inputs.light();
+  // More than the roundings of positions relative to the light.
+  const double margin = 1e-6 * static_cast<double>(reach_ / scale_);
+  const auto is_outside = [&](const scene::Box& box, glm::dvec3 point) {
+    return glm::any(glm::lessThan(point, glm::dvec3(box.lower) - margin)) ||
+           glm::any(glm::greaterThan(point, glm::dvec3(box.upper) + margin));
+  };
+  std::vector<std::uint32_t> is_culled;
+  is_culled.reserve(boxes_.size() + 1);
+  for (const scene::Box& box : boxes_)
+    is_culled.push_back(
+        is_outside(box, eye) && (scene::is_sun(light) || is_outside(box, light.position)) ? 1 : 0);
+  is_culled.push_back(0);
+  is_culled_.write(is_culled.data(), is_culled_.bytes());
+}
 
 void Occluders::build(const frame::FrameInputs& inputs) {
-  if (scene_ != inputs.scene.id()) {
-    const std::int64_t bytes = std::int64_t{3 * sizeof(glm::vec4)} * inputs.scene.triangle_count();
-    gpu::require_storage_block(inputs.context.limits(), bytes, "the model's triangles", k_storage_remedy);
-    corners_ = gpu::Buffer(bytes);
-    corner_texels_ = {inputs.context.limits(), corners_, gpu::Format::rgba32f, "the model's triangles"};
-    scene_ = inputs.scene.id();
-    count_ = inputs.scene.triangle_count();
-  }
+  if (scene_ != inputs.scene.id()) load(inputs);
   const frame::LightOrigin origin = inputs.resources.origin();
   const double reach =
       count_ == 0 ? 0.0
@@ -32,6 +77,11 @@ void Occluders::build(const frame::FrameInputs& inputs) {
   reach_ = static_cast<float>(std::ldexp(1.00001 * reach, exponent));
   if (count_ == 0) return;
 
+  if (culling_ == Culling::automatic) {
+    cull_parts(inputs);
+    part_texels_.bind_sampler(shaders::k_parts_unit);
+    is_culled_texels_.bind_sampler(shaders::k_is_culled_unit);
+  }
   inputs.scene.bind_samplers();
   corners_.bind_storage(shaders::k_occluders_storage);
   program_.set(0, origin.high);

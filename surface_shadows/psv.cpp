@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <numeric>
 #include <random>
 
@@ -18,11 +17,13 @@ frame::ScreenPass Psv::query_pass(bool counts) const {
   return frame::ScreenPass(
       k_psv_query_frag,
       std::array{gpu::Constant(0, counts ? 1u : 0u), gpu::Constant(1, options_.wedge == Wedge::on ? 1u : 0u),
-                 gpu::Constant(2, static_cast<std::uint32_t>(options_.stack))});
+                 gpu::Constant(2, static_cast<std::uint32_t>(options_.stack)),
+                 gpu::Constant(3, options_.traversal == Traversal::stackless ? 1u : 0u)});
 }
 
 Psv::Psv(const PsvOptions& options)
     : options_(options),
+      occluders_(options.cull),
       planes_program_(gpu::Pipeline::compute(k_psv_planes_comp)),
       insert_program_(gpu::Pipeline::compute(k_psv_insert_comp)),
       query_(query_pass(false)) {}
@@ -41,9 +42,11 @@ void Psv::build(const frame::FrameInputs& inputs) {
     order_ = gpu::Buffer::from(std::span<const std::uint32_t>(order));
     planes_ = gpu::Buffer(node * nodes);
     links_ = gpu::Buffer(node * (nodes + 1));
+    subtrees_ = gpu::Buffer(std::int64_t{2 * sizeof(std::uint32_t)} * count);
     order_texels_ = {limits, order_, gpu::Format::r32ui, "the model's triangles"};
     plane_texels_ = {limits, planes_, gpu::Format::rgba32f, "the tree of the model's triangles"};
     link_texels_ = {limits, links_, gpu::Format::rgba32ui, "the tree of the model's triangles"};
+    subtree_texels_ = {limits, subtrees_, gpu::Format::r32ui, "the tree of the model's triangles"};
     scene_ = inputs.scene.id();
   }
   occluders_.build(inputs);
@@ -52,6 +55,8 @@ void Psv::build(const frame::FrameInputs& inputs) {
   planes_.bind_storage(shaders::k_tree_planes_storage);
   links_.bind_storage(shaders::k_tree_links_storage);
   planes_program_.set(0, count);
+  planes_program_.set(1, occluders_.reach());
+  subtrees_.bind_storage(shaders::k_subtrees_storage);
   planes_program_.dispatch({count, 1, 1});
 
   order_texels_.bind_sampler(shaders::k_insertion_order_unit);
@@ -66,10 +71,11 @@ void Psv::run(const frame::ScreenPass& pass, const frame::FrameInputs& inputs,
   occluders_.bind(inputs);
   plane_texels_.bind_sampler(shaders::k_tree_planes_unit);
   link_texels_.bind_sampler(shaders::k_tree_links_unit);
+  subtree_texels_.bind_sampler(shaders::k_subtrees_unit);
   inputs.surface_points().bind_sampler(shaders::k_surface_unit);
   inputs.triangles.bind_sampler(shaders::k_triangle_unit);
-  pass.pipeline().set(0, glm::uvec3(occluders_.count(), std::bit_cast<std::uint32_t>(occluders_.scale()),
-                                    std::bit_cast<std::uint32_t>(occluders_.reach())));
+  pass.pipeline().set(0, occluders_.scale());
+  pass.pipeline().set(1, occluders_.reach());
   pass.run({image});
 }
 
@@ -86,7 +92,8 @@ void Psv::count_nodes(const frame::FrameInputs& inputs, const gpu::Texture& coun
 }
 
 std::map<std::string, std::int64_t> Psv::bytes() const {
-  return {{"occluders", occluders_.bytes()}, {"tree", planes_.bytes() + links_.bytes() + order_.bytes()}};
+  return {{"occluders", occluders_.bytes()},
+          {"tree", planes_.bytes() + links_.bytes() + subtrees_.bytes() + order_.bytes()}};
 }
 
 frame::SurfaceMethod psv_method() {
@@ -94,7 +101,8 @@ frame::SurfaceMethod psv_method() {
   return frame::describe<frame::SurfaceShadow, Options>(
       "psv", "partitioned shadow volumes: a ternary tree over the triangles' shadows, exact",
       {.is_exact = true},
-      {frame::word_option<Options, Wedge>(
+      {culling_option(&Options::cull),
+       frame::word_option<Options, Wedge>(
            {.name = "wedge",
             .meaning = "whether what a plane intersects is left out where the point is far from the plane",
             .quality = "none",
@@ -116,12 +124,20 @@ frame::SurfaceMethod psv_method() {
                                      .cost = "a few percent, by chance",
                                      .sweep = {"1", "2", "3"}},
                                     {.least = 0}, &Options::seed),
+       frame::word_option<Options, Traversal>(
+           {.name = "traversal",
+            .meaning = "how a pixel finds back to nodes that it left for later",
+            .quality = "none",
+            .cost = "stackless visits nodes several times, with few registers",
+            .sweep = {"stack", "stackless"}},
+           {{"stack", "by a stack, and where it overflows without"},
+            {"stackless", "by the tree itself, each node decided anew"}},
+           &Options::traversal),
        frame::count_option<Options>(
            {.name = "stack",
-            .meaning = "nodes that are kept for later, a pixel; where there are more, all "
-                       "triangles are asked",
+            .meaning = "nodes that the stack holds",
             .quality = "none",
-            .cost = "registers, or seconds for pixels that need more",
+            .cost = "registers, or the way without a stack for pixels that need more",
             .sweep = {"24", "32", "64"}},
            {.least = 1, .most = 128}, &Options::stack)},
       [](const gpu::Context&, const Options& options) { return std::make_unique<Psv>(options); });

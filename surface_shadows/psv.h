@@ -10,16 +10,23 @@ namespace airlight::surface_shadows {
 
 enum class InsertionOrder { random, file };
 enum class Wedge { on, off };
+enum class Traversal {
+  stack,      ///< what is left to visit is kept on a stack; where it overflows, the point starts anew without
+  stackless,  ///< each node is decided anew on the way back
+};
 
 struct PsvOptions {
+  Culling cull = Culling::none;
   Wedge wedge = Wedge::on;
   InsertionOrder order = InsertionOrder::random;
-  int seed = 1;    ///< of the random order
+  int seed = 1;  ///< of the random order
+  Traversal traversal = Traversal::stack;
   int stack = 32;  ///< nodes that a pixel's stack holds
 };
 
 /// `psv`: partitioned shadow volumes, a ternary tree over the triangles' shadow volumes that is made anew
-/// each frame on the GPU and asked once a pixel. Exact: whatever its options, it answers what `brute` does.
+/// each frame on the GPU and asked once a pixel. Exact: whatever its other options, it answers what `brute`
+/// does with the same culling.
 /// Based on: see shaders/surface_shadows/top_tree.glsl.
 class Psv : public frame::SurfaceShadow {
  public:
@@ -41,8 +48,8 @@ class Psv : public frame::SurfaceShadow {
   gpu::Pipeline planes_program_, insert_program_;
   frame::ScreenPass query_;
   std::uint64_t scene_ = 0;  ///< SceneBuffers::id
-  gpu::Buffer order_, planes_, links_;
-  gpu::TexelView order_texels_, plane_texels_, link_texels_;
+  gpu::Buffer order_, planes_, links_, subtrees_;
+  gpu::TexelView order_texels_, plane_texels_, link_texels_, subtree_texels_;
 };
 
 frame::SurfaceMethod psv_method();

@@ -6,11 +6,12 @@
 
 // Inserts every triangle, one an invocation, in a random order: each goes down the tree and becomes the child at the first place that
 // has none (Algorithm 1). A place is taken by compare-and-swap. A wedge grows by an atomic maximum of a float's bits, which order
-// as the numbers do where none is negative.
+// as the numbers do where none is negative; a subtree's least depth sinks by an atomic minimum.
 layout(local_size_x = 64) in;
 layout(binding = k_insertion_order_unit) uniform usamplerBuffer insertion_order;
 layout(binding = k_tree_planes_unit) uniform samplerBuffer planes;
 layout(std430, binding = k_tree_links_storage) coherent buffer Links { uint links[]; };
+layout(std430, binding = k_subtrees_storage) buffer Subtrees { uint subtrees[]; };
 layout(location = 0) uniform uint triangle_count;
 layout(location = 1) uniform float scene_reach;
 
@@ -27,13 +28,16 @@ void main() {
   uint node = k_none;  // where to look on, or none: at a place for a child,
   uint place = 0u;     // this word
   bool is_inserted = false;
+  uint own_depth = subtrees[2u * triangle + 1u];
   while (!is_inserted) {
     if (node == k_none) {
       uint child = links[place];
       // Read before another invocation wrote, it may be 0 no longer.
       if (child == 0u) child = atomicCompSwap(links[place], 0u, triangle + 1u);
       is_inserted = child == 0u;
+      if (is_inserted) subtrees[2u * triangle] = place;
       node = first_node_of(child);
+      if (!is_inserted) atomicMin(subtrees[2u * (child - 1u) + 1u], own_depth);
     } else {
       uint k = node & 3u;
       vec4 plane = texelFetch(planes, int(node));

@@ -9,7 +9,9 @@
 layout(local_size_x = 64) in;
 layout(std430, binding = k_tree_planes_storage) writeonly buffer Planes { vec4 planes[]; };
 layout(std430, binding = k_tree_links_storage) writeonly buffer Links { uvec4 links[]; };
+layout(std430, binding = k_subtrees_storage) writeonly buffer Subtrees { uvec2 subtrees[]; };
 layout(location = 0) uniform uint triangle_count;
+layout(location = 1) uniform float scene_reach;  // as in psv_query.frag
 
 // A normal of cross(u, v), scaled to unit length, and by how much at most its direction is off; `slack` includes what computing a
 // height adds. Each component of the product is off by 3 roundings of its terms and one of each factor that is a difference.
@@ -39,4 +41,10 @@ void main() {
   vec3 normal = -unit_normal(occluder.b - occluder.a, occluder.c - occluder.a, slack);
   planes[4u * triangle + 3u] = vec4(normal, -ordered_dot(normal, occluder.a));
   links[4u * triangle + 4u] = uvec4(0u, 0u, floatBitsToUint(slack), 0u);
+  float along_a = ordered_dot(rays.travels, occluder.a);
+  float along_b = ordered_dot(rays.travels, occluder.b);
+  float along_c = ordered_dot(rays.travels, occluder.c);
+  float least_depth =
+      rays.is_sun ? min(along_a, min(along_b, along_c)) - k_depth_error * scene_reach : least_distance_of(triangle);
+  subtrees[triangle] = uvec2(0u, ordered(least_depth));
 }

@@ -4,13 +4,14 @@
 //
 // Planes are rounded, and only prune: a node knows how far its plane may be off, what lies within that of it counts as on
 // both sides, and frame/occlusion.glsl decides. So the addresses follow from the triangles' numbers, nothing is allocated, and a tree
-// of n triangles takes 128 n + 16 bytes.
+// of n triangles takes 136 n + 16 bytes.
 //
 // Based on: Gerhards, Mora, Aveneau, Ghazanfarpour, "Partitioned Shadow Volumes", Eurographics 2015, sections 3.2 to 3.6. What differs:
 //  - "Outside" and "inside" are certain; the paper takes the sign of a rounded product.
 //  - The wedge of what a plane intersects is bounded by the largest height of its corners over the plane, divided by the distance of
 //    the light to the triangle. The largest angle of its corners, which the paper takes, is less than that of some points
 //    between them: of n = z and the corners (1, 0, 0.1) and (0, 1, 0.1) the sines are 0.0995, half-way between them 0.140.
+//  - What lies wholly farther from the light than the point is not visited.
 //  - A point in the shadow of an edge's neighbour goes there by the corners that they share: one that is, bit for bit, an end of the
 //    plane's edge fits either side.
 // GLSL only.
@@ -19,6 +20,8 @@
 // links[4 t + k + 1]: triangles + 1 to go on with, 0 for none. x: outside; y: intersected; of an edge's plane z: bits of its wedge, w: bits
 // of its slack (the inside goes on with the next node); of the last z: bits of its slack, w: the inside, behind the triangle.
 // links[0].x: the root.
+// subtrees[2 t]: the word of a link that leads to t. subtrees[2 t + 1]: the least depth (`ordered`) of t and of all that was inserted
+// below it: what lies higher in the light needs none of them.
 const uint k_outside = 0u;
 const uint k_intersected = 1u;
 const uint k_wedge = 2u;
@@ -45,3 +48,12 @@ float height_above(vec4 plane, vec3 point) {
 float slack_at(uint node, float slack, float distance, float scene_reach, bool is_sun) {
   return slack * (distance + ((node & 3u) == 3u || is_sun ? scene_reach : 0.0));
 }
+
+// A depth, the distance from a lamp or the place along a sun's rays, as an unsigned number of the same order.
+uint ordered(float depth) {
+  uint bits = floatBitsToUint(depth);
+  return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
+}
+
+// Of what rounding leaves of a depth, of the lengths that it is made from.
+const float k_depth_error = 2e-6;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include <ostream>
+#include <random>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -42,8 +43,9 @@ std::vector<float> by_psv(const scene::Geometry& geometry, const scene::View& vi
   return visibility(geometry, view, psv);
 }
 
-std::vector<float> by_brute(const scene::Geometry& geometry, const scene::View& view) {
-  Brute brute;
+std::vector<float> by_brute(const scene::Geometry& geometry, const scene::View& view,
+                            Culling cull = Culling::none) {
+  Brute brute({.cull = cull});
   return visibility(geometry, view, brute);
 }
 
@@ -89,6 +91,15 @@ const std::vector<Case>& cases() {
       cases.push_back({name, builtin(name).geometry, tests::view_of(builtin(name), {64, 48})});
     const scene::Geometry triangles = soup(1500);
     const auto lamp = [](glm::dvec3 position) { return scene::point_light("", position, glm::vec3(1e12f)); };
+    // Layers, each within the beams of those below it, and under each what only it hides.
+    scene::Geometry layers;
+    for (int i = 0; i < 12; ++i) {
+      const float y = -2.0f + 0.3f * static_cast<float>(i), half = 2.0f - 0.15f * static_cast<float>(i);
+      tests::add_triangle(layers, {1 - half, y, 1 - half}, {1 + half, y, 1 - half}, {1, y, 1 + half});
+      for (const float x : {0.8f, 1.0f, 1.2f})
+        tests::add_triangle(layers, {x, y - 0.1f, 0.9f}, {x + 0.1f, y - 0.1f, 0.9f}, {x, y - 0.1f, 1});
+    }
+    cases.push_back({"layers", layers, view_of_soup(lamp({1, 4, 1}))});
     cases.push_back({"soup above", triangles, view_of_soup(lamp({1, 4, 1}))});
     cases.push_back({"soup inside", triangles, view_of_soup(lamp({0.1, -0.3, 0.2}))});
     cases.push_back({"soup grazing", triangles, view_of_soup(lamp({5, -1.99, 1}))});
@@ -110,12 +121,20 @@ TEST_P(Psvs, AnswerWhatAskingEveryTriangleDoes) {
   const std::vector<float> expected = by_brute(given().geometry, given().view);
   EXPECT_GT(count_lit(expected), expected.size() / 100) << given().name;
   EXPECT_LT(count_lit(expected), expected.size()) << given().name;
-  for (int seed = 0; seed < 3; ++seed)
+  for (int seed = 0; seed < 10; ++seed)
     EXPECT_TRUE(by_psv(given().geometry, given().view, {.seed = seed}) == expected) << given().name << seed;
   EXPECT_TRUE(by_psv(given().geometry, given().view, {.wedge = Wedge::off}) == expected) << given().name;
   EXPECT_TRUE(by_psv(given().geometry, given().view, {.order = InsertionOrder::file}) == expected);
-  EXPECT_TRUE(by_psv(given().geometry, given().view, {.stack = 1}) == expected)
-      << given().name << ": a stack that overflows";
+  for (int seed = 0; seed < 4; ++seed)
+    EXPECT_TRUE(by_psv(given().geometry, given().view, {.seed = seed, .traversal = Traversal::stackless}) ==
+                expected)
+        << given().name << ", stackless, " << seed;
+  for (const int stack : {1, 3})
+    EXPECT_TRUE(by_psv(given().geometry, given().view, {.stack = stack}) == expected)
+        << given().name << ": a stack that overflows";
+  EXPECT_TRUE(by_psv(given().geometry, given().view, {.cull = Culling::automatic}) ==
+              by_brute(given().geometry, given().view, Culling::automatic))
+      << given().name;
 }
 
 /// How many of the points that a frame shades a method has wrong, of those that rounding leaves decided.
@@ -140,8 +159,11 @@ TEST_P(Psvs, AreRightHoweverTrianglesAreWritten) {
     glm::uvec3& t = other.triangles[i];
     t = i % 3 == 0 ? t : i % 3 == 1 ? glm::uvec3(t.y, t.z, t.x) : glm::uvec3(t.z, t.x, t.y);
   }
-  std::reverse(other.triangles.begin(), other.triangles.end());
-  std::reverse(other.material_of_triangle.begin(), other.material_of_triangle.end());
+  const auto shuffle = [](auto& triangles) {
+    std::shuffle(triangles.begin(), triangles.end(), std::mt19937(7));
+  };
+  shuffle(other.triangles);
+  shuffle(other.material_of_triangle);
   EXPECT_EQ(count_wrong(other, given().view, by_psv(other, given().view, {})), 0u) << given().name;
 }
 
@@ -160,7 +182,7 @@ TEST_P(Psvs, DoNotDependOnScale) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, Psvs, testing::Range(std::size_t{0}, std::size_t{8}));
+INSTANTIATE_TEST_SUITE_P(Cases, Psvs, testing::Range(std::size_t{0}, std::size_t{9}));
 
 /// A closed mesh around the light: an icosahedron whose faces are cut in four, twice, so that most edges and
 /// vertices are inside of a face. Its corners are on no axis.
@@ -265,22 +287,56 @@ TEST(Psv, OfAnEmptySceneAndOfAModelOfOneTriangle) {
   EXPECT_EQ(count_lit(by_psv(one, view, {})), 0u) << "it turns its back to the light";
 }
 
+double nodes_a_pixel(const scene::Geometry& geometry, const scene::View& view, const PsvOptions& options) {
+  double mean = 0.0;
+  tests::look_into_frame(geometry, view, 16, [&](const frame::FrameInputs& inputs) {
+    Psv psv(options);
+    const gpu::Texture visibility(gpu::Format::r32f, view.size), counts(gpu::Format::r32f, view.size);
+    psv.query(inputs, visibility);
+    psv.count_nodes(inputs, counts);
+    const std::vector<float> nodes = counts.read<float>();
+    mean = std::accumulate(nodes.begin(), nodes.end(), 0.0) / static_cast<double>(nodes.size());
+  });
+  return mean;
+}
+
 TEST(Psv, VisitsFewerNodesByItsWedges) {
-  const Case& given = cases()[2];
-  std::vector<double> mean;
-  for (const Wedge wedge : {Wedge::on, Wedge::off}) {
-    tests::look_into_frame(given.geometry, given.view, 16, [&](const frame::FrameInputs& inputs) {
-      Psv psv({.wedge = wedge});
-      const gpu::Texture visibility(gpu::Format::r32f, given.view.size),
-          counts(gpu::Format::r32f, given.view.size);
-      psv.query(inputs, visibility);
-      psv.count_nodes(inputs, counts);
-      const std::vector<float> nodes = counts.read<float>();
-      mean.push_back(std::accumulate(nodes.begin(), nodes.end(), 0.0) / static_cast<double>(nodes.size()));
-    });
-  }
-  EXPECT_GT(mean[0], 4.0);
-  EXPECT_LT(1.5 * mean[0], mean[1]);
+  const Case& given = cases()[3];
+  const double usual = nodes_a_pixel(given.geometry, given.view, {});
+  EXPECT_GT(usual, 4.0);
+  EXPECT_LT(1.5 * usual, nodes_a_pixel(given.geometry, given.view, {.wedge = Wedge::off}));
+}
+
+/// A floor, above it a box and beside that an open sheet that faces up.
+scene::Geometry box_and_sheet() {
+  scene::Geometry geometry;
+  tests::add_quad(geometry, {-6, -2, -6}, {0, 0, 12}, {12, 0, 0});
+  tests::add_box(geometry, {-1.5f, -1, -1}, {0, 0, 1});
+  tests::add_quad(geometry, {0.5f, -1, -1}, {0, 0, 2}, {1.5f, 0, 0});
+  return geometry;
+}
+
+TEST(Culling, LeavesOutHalfOfWhatIsClosedAndNothingElse) {
+  const scene::Geometry geometry = box_and_sheet();
+  scene::View view = view_of_soup(scene::point_light("", {0.13, 4, 0.07}, glm::vec3(1e3f)));
+  const auto expect_same = [&](const std::string& what) {
+    const std::vector<float> all = by_brute(geometry, view);
+    EXPECT_LT(count_lit(all), 64u * 40u) << what;
+    const std::vector<float> culled = by_brute(geometry, view, Culling::automatic);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      EXPECT_EQ(all[i], culled[i]) << what << ", pixel " << i % 64 << ' ' << i / 64;
+    EXPECT_TRUE(by_psv(geometry, view, {.cull = Culling::automatic}) == all) << what;
+  };
+  expect_same("lamp above");
+  EXPECT_LT(nodes_a_pixel(geometry, view, {.cull = Culling::automatic}),
+            0.9 * nodes_a_pixel(geometry, view, {}));
+  view.lights[0].position = {-0.7, -0.5, 0.1};
+  EXPECT_TRUE(by_brute(geometry, view, Culling::automatic) == by_brute(geometry, view)) << "lamp in the box";
+  view.lights = {scene::sun("", {0.3, 1, 0.2}, glm::vec3(1.0f))};
+  expect_same("sun");
+  view.camera.eye = {-0.7, -0.5, 0.1};
+  view.camera.target = {-0.7, -1, 0};
+  EXPECT_EQ(count_lit(by_brute(geometry, view, Culling::automatic)), 0u) << "eye in the box";
 }
 
 }  // namespace
