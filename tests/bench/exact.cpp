@@ -1,10 +1,14 @@
 // Exact surface shadows on models under random lights and views: wrong and undecided pixels, nodes a pixel.
 //
-// `airlight_exact [--size N] [--scale S] [--offset X] MODEL...`: built-in scenes or files. Of each, ten views
-// of N×N pixels (default 1024), from inside and outside, under lamps inside, outside, close to the ground and
-// far away and under suns, the same ones in every run. Positions are scaled by S and moved by X sizes of the
-// model, and rounded to float. Every pixel is judged (reference/surface_judge.h); beside `psv` the shadow
-// cube of 2048².
+// `airlight_exact [--size N] [--scale S] [--offset X] [--factors] MODEL...`: built-in scenes or files. Of
+// each, ten views of N×N pixels (default 1024), from inside and outside, under lamps inside, outside, close
+// to the ground and far away and under suns, the same ones in every run. Positions are scaled by S and moved
+// by X sizes of the model, and rounded to float. Every pixel is judged (reference/surface_judge.h); beside
+// `psv` the shadow cube of 2048².
+//
+// `--factors` instead: nodes a pixel of the same views, as the paper has them (triangles that face the light
+// left out where that is right), and by how much they grow with one of its means taken away. All settings
+// have to give the same image, but for culling, whose pixels are judged.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -14,6 +18,7 @@
 
 #include <fmt/format.h>
 
+#include "counted_psv.h"
 #include "frame/frame.h"
 #include "frame/none.h"
 #include "frame/point_reader.h"
@@ -23,25 +28,11 @@
 #include "scene/builtin.h"
 #include "scene/import.h"
 #include "support/random.h"
-#include "surface_shadows/psv.h"
 #include "surface_shadows/shadow_map_lookup.h"
 
 namespace {
 
 using namespace airlight;
-
-/// Counts the nodes that each pixel visits, as well.
-class CountedPsv : public surface_shadows::Psv {
- public:
-  using Psv::Psv;
-  void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override {
-    Psv::query(inputs, visibility);
-    const gpu::Texture counts(gpu::Format::r32f, visibility.size());
-    count_nodes(inputs, counts);
-    nodes = counts.read<float>();
-  }
-  std::vector<float> nodes;
-};
 
 struct Row {
   std::size_t pixels = 0, wrong = 0, wrong_by_map = 0, undecided = 0;
@@ -104,7 +95,7 @@ Row measure(gpu::Context& context, const scene::Geometry& geometry, int size) {
   Row row;
   const scene::Box box = scene::bounds(geometry);
   frame::Frame frame(context, geometry, 2048);
-  CountedPsv psv(surface_shadows::PsvOptions{});
+  bench::CountedPsv psv(surface_shadows::PsvOptions{});
   surface_shadows::ShadowMapLookup shadow_map;
   tests::Random random(2015);
   for (int i = 0; i < 10; ++i) {
@@ -132,6 +123,62 @@ Row measure(gpu::Context& context, const scene::Geometry& geometry, int size) {
   return row;
 }
 
+struct Setting {
+  std::string name;
+  surface_shadows::PsvOptions options;
+};
+
+void print_factors(gpu::Context& context, const std::string& name, const scene::Geometry& geometry,
+                   int size) {
+  using surface_shadows::Culling, surface_shadows::Wedge, surface_shadows::InsertionOrder,
+      surface_shadows::Traversal;
+  const std::vector<Setting> settings = {
+      {"paper's", {.cull = Culling::automatic}},
+      {"cull=none", {}},
+      {"cull=none, stackless", {.traversal = Traversal::stackless}},
+      {"cull=none, file", {.order = InsertionOrder::file}},
+      {"cull=none, no wedge", {.wedge = Wedge::off, .stack = 128}},
+  };
+  const scene::Box box = scene::bounds(geometry);
+  frame::Frame frame(context, geometry, 16);
+  std::vector<double> nodes(settings.size());
+  std::vector<float> most(settings.size());
+  std::size_t pixels = 0, wrong_by_culling = 0, changed_by_culling = 0, seeds_that_differ = 0;
+  tests::Random random(2015);
+  for (int i = 0; i < 10; ++i) {
+    const scene::View view = view_number(i, box, size, random);
+    frame::PointReader reader;
+    visibility_by(frame, view, reader);
+    const std::vector<glm::vec4>& points = reader.points().of_light.at(0);
+    std::vector<std::vector<float>> answers;
+    for (std::size_t k = 0; k < settings.size(); ++k) {
+      bench::CountedPsv psv(settings[k].options);
+      answers.push_back(visibility_by(frame, view, psv));
+      for (std::size_t pixel = 0; pixel < points.size(); ++pixel) {
+        if (points[pixel].w < 0.0f) continue;
+        nodes[k] += static_cast<double>(psv.nodes[pixel]);
+        most[k] = std::max(most[k], psv.nodes[pixel]);
+        if (k == 0) ++pixels;
+      }
+      if (k > 1 && answers[k] != answers[1])
+        fmt::print(stderr, "view {}, {}: not the same\n", i, settings[k].name);
+    }
+    surface_shadows::Psv other_seed({.seed = 2 + i});
+    if (visibility_by(frame, view, other_seed) != answers[1]) ++seeds_that_differ;
+    quality::SharedReference reference(geometry, view, {});
+    wrong_by_culling +=
+        quality::surface_error(answers[0], reference.verdicts(0, reader.points())).wrong_pixels;
+    for (std::size_t pixel = 0; pixel < points.size(); ++pixel)
+      if (points[pixel].w >= 0.0f && answers[0][pixel] != answers[1][pixel]) ++changed_by_culling;
+  }
+  fmt::print(
+      "{}: {} triangles, {} pixels; culling changes {} of them and has {} wrong; {} of ten seeds differ\n",
+      name, geometry.triangles.size(), pixels, changed_by_culling, wrong_by_culling, seeds_that_differ);
+  for (std::size_t k = 0; k < settings.size(); ++k)
+    fmt::print("  {:<24} {:>9.1f} nodes, {:>8} at most, x {:.2f}\n", settings[k].name,
+               nodes[k] / static_cast<double>(pixels), most[k], nodes[k] / nodes[0]);
+}
+
 scene::Geometry load(const std::string& name) {
   if (const scene::BuiltinScene* builtin = scene::find_builtin(name)) return builtin->make().geometry;
   return scene::import_scene(name).geometry;
@@ -140,9 +187,12 @@ scene::Geometry load(const std::string& name) {
 void run(std::vector<std::string> words) {
   int size = 1024;
   double scale = 1.0, offset = 0.0;
+  bool prints_factors = false;
   std::vector<std::string> models;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i] == "--size")
+    if (words[i] == "--factors")
+      prints_factors = true;
+    else if (words[i] == "--size")
       size = std::stoi(words.at(++i));
     else if (words[i] == "--scale")
       scale = std::stod(words.at(++i));
@@ -152,18 +202,25 @@ void run(std::vector<std::string> words) {
       models.push_back(words[i]);
   }
   gpu::Context context;
-  fmt::print("{:<32} {:>10} {:>10} {:>8} {:>10} {:>10} {:>8} {:>8}\n", "model", "triangles", "pixels",
-             "wrong", "undecided", "map wrong", "nodes", "most");
+  if (!prints_factors)
+    fmt::print("{:<32} {:>10} {:>10} {:>8} {:>10} {:>10} {:>8} {:>8}\n", "model", "triangles", "pixels",
+               "wrong", "undecided", "map wrong", "nodes", "most");
   for (const std::string& model : models) {
     scene::Geometry geometry = load(model);
     const scene::Box box = scene::bounds(geometry);
     const double moved = offset * static_cast<double>(glm::length(box.upper - box.lower));
     for (glm::vec3& position : geometry.positions)
       position = glm::vec3(scale * (glm::dvec3(position) + moved));
+    const std::string name = model.substr(model.rfind('/') + 1);
+    if (prints_factors) {
+      print_factors(context, name, geometry, size);
+      std::fflush(stdout);
+      continue;
+    }
     const Row row = measure(context, geometry, size);
-    fmt::print("{:<32} {:>10} {:>10} {:>8} {:>10} {:>10} {:>8.1f} {:>8}\n",
-               model.substr(model.rfind('/') + 1), geometry.triangles.size(), row.pixels, row.wrong,
-               row.undecided, row.wrong_by_map, row.nodes, row.most_nodes);
+    if (!prints_factors)
+      fmt::print("{:<32} {:>10} {:>10} {:>8} {:>10} {:>10} {:>8.1f} {:>8}\n", name, geometry.triangles.size(),
+                 row.pixels, row.wrong, row.undecided, row.wrong_by_map, row.nodes, row.most_nodes);
     std::fflush(stdout);
   }
 }
