@@ -142,15 +142,25 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
 
   // What the camera sees.
   timer.begin_part({});
+  float near = 0.0f;
   timer.time("surfaces", [&] {
     double distance = std::numeric_limits<double>::infinity();
     for (const scene::Light& light : view.lights)
       distance = std::min(distance, length_scale(light, camera.eye, scene.box()));
-    const float near = near_depth(scene, camera.eye, distance, camera.half_width, camera.half_height);
+    near = near_depth(scene, camera.eye, distance, camera.half_width, camera.half_height);
     write_block(camera_block_, camera_block(camera, view.size, near), shaders::k_camera_block);
     write_block(medium_block_, medium_block(view.medium, camera.eye), shaders::k_medium_block);
     gbuffer_->draw(scene, camera, scene.triangles_at(camera.eye, distance));
   });
+
+  const bool is_coarse = airlight.where() != Where::pixel;
+  if (is_coarse) {
+    const glm::ivec2 size = coarse_size(view.size, airlight.where());
+    if (!coarse_image_ || coarse_image_->view().size != size) coarse_image_.emplace(view, airlight.where());
+    timer.time("surfaces", [&] { coarse_image_->begin(view, *gbuffer_, scene, near); });
+    camera_block_.bind_uniform(shaders::k_camera_block);
+  }
+  uses_coarse_image_ = is_coarse;
 
   // What each light adds.
   lights_.clear();
@@ -181,7 +191,23 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
                              .resources = resources_,
                              .timer = timer};
     surface_shadow.query(inputs, visibility_[i]);  // times its own stages, …
-    airlight.integrate(inputs, airlight_of(i));    // … and so does airlight
+    // … and so does airlight.
+    if (is_coarse) {
+      coarse_image_->bind_camera();
+      airlight.integrate({.context = context_,
+                          .view = coarse_image_->view(),
+                          .light_index = i,
+                          .scene = scene,
+                          .triangles = gbuffer_->triangles(),
+                          .surfaces = coarse_image_->surfaces(),
+                          .resources = resources_,
+                          .timer = timer},
+                         coarse_image_->airlight());
+      camera_block_.bind_uniform(shaders::k_camera_block);
+      timer.time("upsample", [&] { coarse_image_->upsample(gbuffer_->surfaces(), airlight_of(i)); });
+    } else {
+      airlight.integrate(inputs, airlight_of(i));
+    }
     timer.time("composite", [&] { composite(i, !is_empty); });
     is_empty = false;
   }
@@ -211,6 +237,12 @@ void Frame::composite(std::size_t light, bool adds) {
   } else {
     pass->run({radiance_, airlight_});
   }
+}
+
+std::map<std::string, std::int64_t> Frame::bytes() const {
+  std::map<std::string, std::int64_t> bytes = resources_.bytes();
+  if (uses_coarse_image_) bytes["coarse_image"] = coarse_image_->bytes();
+  return bytes;
 }
 
 FrameImages Frame::read() const {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "frame/coarse_image.h"
 #include "frame/gbuffer.h"
 #include "frame/methods.h"
 #include "frame/resources.h"
@@ -61,7 +62,7 @@ class Frame {
   FrameImages take();
 
   /// GPU memory of what the last frame used beside its methods' own, by name.
-  std::map<std::string, std::int64_t> bytes() const { return resources_.bytes(); }
+  std::map<std::string, std::int64_t> bytes() const;
 
  private:
   void require_images(const scene::View& view, gpu::Format visibility_format);
@@ -78,6 +79,8 @@ class Frame {
       composite_;  ///< by: the light is textured, it adds to others
 
   std::optional<GBuffer> gbuffer_;
+  std::optional<CoarseImage> coarse_image_;
+  bool uses_coarse_image_ = false;  ///< the last frame did
   std::vector<std::string> lights_;
   std::vector<bool> is_skipped_;
   std::vector<gpu::Texture> visibility_;         ///< one a light

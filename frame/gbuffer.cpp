@@ -30,9 +30,13 @@ void GBuffer::draw(const SceneBuffers& scene, const scene::CameraFrame& camera,
                 .half_height = camera.half_height},
                left_out);
   });
+  find_surfaces(scene, surfaces_);
+}
+
+void GBuffer::find_surfaces(const SceneBuffers& scene, const gpu::Texture& surfaces) const {
   scene.bind_samplers();
   triangles_.bind_sampler(shaders::k_triangle_unit);
-  resolve_.run({surfaces_});
+  resolve_.run({surfaces});
 }
 
 }  // namespace airlight::frame

@@ -18,6 +18,9 @@ class GBuffer {
   void draw(const SceneBuffers& scene, const scene::CameraFrame& camera,
             std::span<const std::uint32_t> left_out) const;
 
+  /// As `surfaces`, of the camera whose block is bound: the same one, in as many or in fewer pixels.
+  void find_surfaces(const SceneBuffers& scene, const gpu::Texture& surfaces) const;
+
   const gpu::Texture& triangles() const { return triangles_; }  ///< r32ui: number + 1, 0 for none
 
   /// rgba32f: unit normal towards the eye, world axes; distance along the unit view ray [m]. All 0 for none.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "frame/coarse_image.h"
 #include "frame/resources.h"
 #include "gpu/context.h"
 #include "gpu/texture.h"
@@ -21,7 +22,7 @@ struct FrameInputs {
   const scene::View& view;
   std::size_t light_index;  ///< in view.lights
   const SceneBuffers& scene;
-  const gpu::Texture& triangles;  ///< r32ui: number of the triangle seen + 1, 0 for none
+  const gpu::Texture& triangles;  ///< r32ui: number of the triangle seen + 1, 0 for none; of all pixels
   const gpu::Texture& surfaces;   ///< rgba32f: unit normal towards the eye, distance along the unit view ray
                                   ///< [m]; 0 for none
   Resources& resources;
@@ -84,6 +85,9 @@ class Airlight {
   /// Writes the light scattered once towards the eye along each view ray, RGB [W/(m² sr)]. Times its stages.
   /// @param radiance rgba32f, of the image's size
   virtual void integrate(const FrameInputs& inputs, const gpu::Texture& radiance) = 0;
+
+  /// Of which pixels `integrate` is asked: its inputs and its image are then those of a coarse image.
+  virtual Where where() const { return Where::pixel; }
 
   /// As of a SurfaceShadow.
   virtual bool sees_every_light() const { return false; }

@@ -258,6 +258,7 @@ frame::AirlightMethod vsv_method() {
                                         .cost = "none",
                                         .sweep = {"growing", "equal"}},
                                        {{"growing"}, {"equal", "the paper's"}}, &VsvOptions::phi_cells));
+  options.push_back(frame::where_option(&VsvOptions::where));
   return frame::describe<frame::Airlight, VsvOptions>(
       "vsv", "epipolar voxelized shadow volumes", {}, std::move(options),
       [](const gpu::Context& context, const VsvOptions& vsv) { return std::make_unique<Vsv>(context, vsv); });

@@ -31,6 +31,7 @@ enum class PhiCells {
 struct VsvOptions {
   VsvIntegral integral = VsvIntegral::automatic;
   PhiCells phi_cells = PhiCells::growing;
+  frame::Where where = frame::Where::pixel;
   epipolar::VolumeOptions volume = {};
 
   void validate() const { volume.validate(); }
@@ -61,6 +62,7 @@ class Vsv : public frame::Airlight {
 
   /// The options must not refuse the view.
   void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override;
+  frame::Where where() const override { return options_.where; }
   std::map<std::string, std::int64_t> bytes() const override;
   std::vector<frame::DebugImage> debug_images(const frame::FrameInputs& inputs) override;
 
