@@ -13,6 +13,9 @@ void render(const Options& options);
 /// is missed
 void compare(const Options& options);
 
+/// Measures every setting that is asked for and not yet there: see quality::sweep.
+void sweep(const Options& options);
+
 void list_scenes();
 void print_info();
 

@@ -103,29 +103,19 @@ void compare(const Options& options) {
   }
   Subject subject = make_subject(options);
   fit_to_view(volumes, surfaces, subject);
-  const std::filesystem::path folder =
-      options.output.empty() ? std::filesystem::path("out") / std::filesystem::path(options.scene).stem()
-                             : std::filesystem::path(options.output);
+  const std::filesystem::path folder = output_folder(options);
   require_folder(folder);
   const auto json = options.get("json");
   if (json && *json != "-") require_writable(*json);
   if (!options.quiet) say_warnings(subject.scene.report);
 
-  require_memory(
-      {.size = subject.view.size,
-       .bytes_per_pixel =
-           k_bytes_of_compare + k_bytes_of_compared_light * (subject.view.lights.size() - 1) +
-           (subject.path ? subject.path->views.size() * subject.view.lights.size() * k_bytes_of_path_frame
-                         : 0),
-       .shadow_map = quality::is_read("shadow-map", volumes, surfaces) ? shadow_map : 0,
-       .triangles = subject.scene.geometry.triangles.size()});
+  require_memory({.size = subject.view.size,
+                  .bytes_per_pixel = bytes_of_compare(subject),
+                  .shadow_map = quality::is_read("shadow-map", volumes, surfaces) ? shadow_map : 0,
+                  .triangles = subject.scene.geometry.triangles.size()});
   const auto command = [&](const quality::VolumeChoice& volume, const quality::SurfaceChoice& surface) {
-    // What is asked of all pairs, and what this one does not read, is left out.
-    std::vector<std::string> without = {"volume", "surface", "json", "max-error", "max-undecided"};
-    for (const auto& option : options.given)
-      if (!quality::is_read(option.first, {&volume, 1}, {&surface, 1})) without.push_back(option.first);
-    return fmt::format("{} --volume {} --surface {}", options.command_line(without),
-                       quality::shell_quote(volume.spec), quality::shell_quote(surface.spec));
+    // What is asked of all pairs is left out.
+    return command_of_pair(options, volume, surface, {"json", "max-error", "max-undecided"});
   };
   quality::Comparison comparison;
   {

@@ -30,7 +30,7 @@ void add_option(CLI::App& command, const OptionLine& line) {
       ->take_last();
 }
 
-/// What `render` and `compare` share.
+/// What `render`, `compare` and `sweep` share.
 CLI::App& add_image_command(CLI::App& app, Options& options, const char* name, const char* description) {
   CLI::App& command = *app.add_subcommand(name, description);
   command
@@ -47,7 +47,7 @@ CLI::App& add_image_command(CLI::App& app, Options& options, const char* name, c
 /// be.
 /// @returns Options::given
 std::vector<std::pair<std::string, std::string>> read_words(const CLI::App& app, int argc, char** argv) {
-  constexpr const char* k_commands = "use render, compare, scenes or info";
+  constexpr const char* k_commands = "use render, compare, sweep, scenes or info";
   if (argc < 2) throw Error(ExitCode::usage, "command line", "it names no command", k_commands);
   if (argv[1][0] == '-') {
     if (app.get_option_no_throw(argv[1])) return {};
@@ -129,7 +129,35 @@ int run(int argc, char** argv) {
       "--debug", options.debug,
       "also write pictures of what a volume method holds; of vsv: the grid before and after "
       "the scan, and the shadowed samples of each pixel");
+
+  CLI::App& sweep_command = add_image_command(
+      app, options, "sweep",
+      "measures every setting of lists of values, one line of JSON each, as DIR/runs.jsonl; "
+      "goes on where it was interrupted");
+  sweep_command.add_option("-o", options.output, "folder for the runs (default: out/SCENE)")
+      ->type_name("DIR");
+  add_option(sweep_command,
+             {"volume", "LIST",
+              "methods of airlight, separated by commas; values in braces give each of them, as in "
+              "vsv:alpha={64,128}:phi={128,256}. So do --surface and --shadow-map {512,1024}"});
+  add_option(sweep_command,
+             {"surface", "LIST", "methods of surface shadow, separated by commas (default: shadow-map)"});
+  add_option(sweep_command, {"axes", "FILE.toml", "a file of these lists: see quality/axes.h"});
+  sweep_command.add_flag("--all", options.all,
+                         "every method of airlight that is judged, with up to 40 settings made of the values "
+                         "that it calls worth sweeping");
+  add_option(sweep_command,
+             {"baseline", "METHOD",
+              "whose frames are timed beside each setting's, with the first shadow map (default: vsv)"});
+  add_option(
+      sweep_command,
+      {"frames", "N",
+       "rounds: frames timed a setting, along a path plays of it (default: 9); of less than 6 there is "
+       "no interval"});
+  add_option(sweep_command,
+             {"shard", "K/N", "only a part of the settings, from 1/N to N/N, in DIR/runs-K-of-N.jsonl"});
   render_command.footer(quality::method_help());
+  sweep_command.footer(quality::method_help());
   compare_command.footer(quality::method_help());
 
   CLI::App& scenes_command = *app.add_subcommand("scenes", "lists the built-in scenes");
@@ -143,14 +171,19 @@ int run(int argc, char** argv) {
     throw Error(ExitCode::usage, "command line", error.what(), "see airlight --help");
   }
 
-  if (render_command.parsed()) {
+  const auto require_scene = [&](const char* example) {
     if (options.scene.empty())
-      throw Error(ExitCode::usage, "SCENE", "it is missing",
-                  "name one, as in airlight render window -o out.exr");
+      throw Error(ExitCode::usage, "SCENE", "it is missing", fmt::format("name one, as in {}", example));
+  };
+  if (render_command.parsed()) {
+    require_scene("airlight render window -o out.exr");
     render(options);
   } else if (compare_command.parsed()) {
     if (options.scene.empty()) options.scene = "window";
     compare(options);
+  } else if (sweep_command.parsed()) {
+    require_scene("airlight sweep window --all -o out/sweep");
+    sweep(options);
   } else if (scenes_command.parsed()) {
     list_scenes();
   } else if (info_command.parsed()) {

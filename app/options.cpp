@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "app/memory.h"
 #include "quality/light_texture.h"
 #include "quality/results.h"
 #include "scene/builtin.h"
@@ -198,6 +199,26 @@ void fit_to_view(std::vector<quality::VolumeChoice>& volumes, std::vector<qualit
   for (quality::VolumeChoice& volume : volumes) volume.fit(subject.views());
   for (quality::SurfaceChoice& surface : surfaces) surface.fit(subject.views());
   quality::warn_of_open_parts(volumes, surfaces, subject.scene);
+}
+
+std::string command_of_pair(const Options& options, const quality::VolumeChoice& volume,
+                            const quality::SurfaceChoice& surface, std::vector<std::string> without) {
+  without.insert(without.end(), {"volume", "surface"});
+  for (const auto& option : options.given)
+    if (!quality::is_read(option.first, {&volume, 1}, {&surface, 1})) without.push_back(option.first);
+  return fmt::format("{} --volume {} --surface {}", options.command_line(without),
+                     quality::shell_quote(volume.spec), quality::shell_quote(surface.spec));
+}
+
+std::filesystem::path output_folder(const Options& options) {
+  return options.output.empty() ? std::filesystem::path("out") / std::filesystem::path(options.scene).stem()
+                                : std::filesystem::path(options.output);
+}
+
+std::size_t bytes_of_compare(const Subject& subject) {
+  const std::size_t lights = subject.view.lights.size();
+  return k_bytes_of_compare + k_bytes_of_compared_light * (lights - 1) +
+         (subject.path ? subject.path->views.size() * lights * k_bytes_of_path_frame : 0);
 }
 
 int shadow_map_size(const Options& options) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,12 +22,12 @@ struct OptionLine {
   std::string help;
 };
 
-/// What `render` and `compare` share.
+/// What `render`, `compare` and `sweep` share.
 std::span<const OptionLine> common_options();
 
-/// The command line of `render` or `compare` as it was typed.
+/// The command line of `render`, `compare` or `sweep` as it was typed.
 struct Options {
-  std::string command;  ///< "render" or "compare"
+  std::string command;  ///< "render", "compare" or "sweep"
   std::string scene;    ///< SCENE
   /// Each option that was typed, by its name without dashes, and its value, in their order: those of lights
   /// may be there several times.
@@ -33,6 +35,7 @@ struct Options {
   std::string output;  ///< -o; empty without
   bool quiet = false;
   bool debug = false;  ///< of `compare`
+  bool all = false;    ///< of `sweep`
 
   /// Of an option that is no light's.
   std::optional<std::string> get(std::string_view name) const {
@@ -77,6 +80,17 @@ void require_read(const Options& options, std::span<const quality::VolumeChoice>
 /// @throws scene::Error (usage) where a method asked for cannot show it
 void fit_to_view(std::vector<quality::VolumeChoice>& volumes, std::vector<quality::SurfaceChoice>& surfaces,
                  Subject& subject);
+
+/// The command of one pair of methods, but -o. What neither reads is left out.
+/// @param without names of options that the command does not have
+std::string command_of_pair(const Options& options, const quality::VolumeChoice& volume,
+                            const quality::SurfaceChoice& surface, std::vector<std::string> without);
+
+/// -o, or out/ and the scene's name.
+std::filesystem::path output_folder(const Options& options);
+
+/// What comparing takes of a pixel: see require_memory.
+std::size_t bytes_of_compare(const Subject& subject);
 
 /// --shadow-map [texels]
 int shadow_map_size(const Options& options);

@@ -142,35 +142,39 @@ std::vector<Truth> trace_path(const CompareRequest& request, Measurer& measurer,
   return truths;
 }
 
-void measure_view(const CompareRequest& request, Measurer& measurer, const Truth& truth,
-                  const Exposure& exposure, const VolumeChoice& volume, const SurfaceChoice& surface,
-                  Run& run) {
-  const Measurer::Measurement measured = measurer.measure(volume, surface, request.frames);
-  run.cost = measured.cost;
-  run.errors = judge(measured.images, truth);
-  write_frame(request.directory / (run.name + ".exr"), measured.images,
-              metadata_of(request, run.volume, run.surface, run.command));
-  write_previews(request, run.name, "", measured.images, truth, exposure);
-  if (request.debug) run.debug_images = write_debug_images(request, run, measurer.debug_images(volume));
-}
+}  // namespace
 
-void measure_path(const CompareRequest& request, Measurer& measurer, const std::vector<Truth>& truths,
-                  const Exposure& exposure, const VolumeChoice& volume, const SurfaceChoice& surface,
-                  Run& run) {
-  run.path.resize(truths.size());
-  const auto look = [&](std::size_t i, const frame::FrameImages& images) {
-    run.path[i].errors = judge(images, truths[i]);
-    write_previews(request, run.name, scene::frame_ending(i), images, truths[i], exposure);
-    if (is_worse(run.path[i].errors.airlight, run.path[run.worst_frame].errors.airlight)) run.worst_frame = i;
-  };
-  const Measurer::PathMeasurement measured =
-      measurer.measure_path(volume, surface, request.path->views, request.frames, look);
+Run judged_run(Measurer& measurer, std::span<const scene::View> views, bool is_path,
+               std::span<const Truth> truths, const VolumeChoice& volume, const SurfaceChoice& surface,
+               int frames, const Look& look) {
+  Run run;
+  run.volume = volume.spec;
+  run.surface = surface.spec;
+  run.name = file_stem(volume.spec) + "+" + file_stem(surface.spec);
+  run.is_judged = volume.method->traits.is_judged();
+  run.is_yardstick = volume.method->traits.is_yardstick;
+  run.settings = volume.values();
+  run.surface_settings = surface.values();
+  if (!is_path) {
+    const Measurer::Measurement measured = measurer.measure(volume, surface, frames);
+    run.cost = measured.cost;
+    run.errors = judge(measured.images, truths[0]);
+    if (look) look(run, 0, measured.images);
+    return run;
+  }
+  run.path.resize(views.size());
+  const Measurer::PathMeasurement measured = measurer.measure_path(
+      volume, surface, views, frames, [&](std::size_t i, const frame::FrameImages& images) {
+        run.path[i].errors = judge(images, truths[i]);
+        if (look) look(run, i, images);
+        if (is_worse(run.path[i].errors.airlight, run.path[run.worst_frame].errors.airlight))
+          run.worst_frame = i;
+      });
   run.cost = measured.cost;
   for (std::size_t i = 0; i < run.path.size(); ++i) run.path[i].cost = measured.frames[i];
   run.errors = run.path[run.worst_frame].errors;
+  return run;
 }
-
-}  // namespace
 
 Comparison compare(gpu::Context& context, const CompareRequest& request) {
   Comparison comparison;
@@ -203,19 +207,20 @@ Comparison compare(gpu::Context& context, const CompareRequest& request) {
   // Every pair: measure, judge, write.
   for (const VolumeChoice& volume : request.volumes) {
     for (const SurfaceChoice& surface : request.surfaces) {
-      Run run;
-      run.volume = volume.spec;
-      run.surface = surface.spec;
-      run.name = file_stem(volume.spec) + "+" + file_stem(surface.spec);
-      run.is_judged = volume.method->traits.is_judged();
-      run.is_yardstick = volume.method->traits.is_yardstick;
-      run.settings = volume.values();
-      run.surface_settings = surface.values();
-      run.command = command_of(request, run.name, volume, surface);
-      if (request.path)
-        measure_path(request, measurer, truths, comparison.exposure, volume, surface, run);
-      else
-        measure_view(request, measurer, truths[0], comparison.exposure, volume, surface, run);
+      std::string command;
+      Run run = judged_run(measurer, request.path ? request.path->views : std::span(&request.view, 1),
+                           request.path, truths, volume, surface, request.frames,
+                           [&](const Run& judged, std::size_t i, const frame::FrameImages& images) {
+                             command = command_of(request, judged.name, volume, surface);
+                             if (!request.path)
+                               write_frame(request.directory / (judged.name + ".exr"), images,
+                                           metadata_of(request, judged.volume, judged.surface, command));
+                             write_previews(request, judged.name, request.path ? scene::frame_ending(i) : "",
+                                            images, truths[i], comparison.exposure);
+                           });
+      run.command = command;
+      if (request.debug && !request.path)
+        run.debug_images = write_debug_images(request, run, measurer.debug_images(volume));
       comparison.runs.push_back(std::move(run));
     }
   }

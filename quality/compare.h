@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,16 @@ struct CompareRequest {
   std::function<std::string(const VolumeChoice&, const SurfaceChoice&)> command;
   Progress progress;  ///< may be empty
 };
+
+/// Called with a run as far as it is known, a view's number and the run's image of it.
+using Look = std::function<void(const Run&, std::size_t, const frame::FrameImages&)>;
+
+/// Measures and judges one pair of methods; the run's command is left empty.
+/// @param views the one that is looked at, or where `is_path` says so those of a path, one truth each
+/// @param frames as in CompareRequest; @param look may be empty
+Run judged_run(Measurer& measurer, std::span<const scene::View> views, bool is_path,
+               std::span<const Truth> truths, const VolumeChoice& volume, const SurfaceChoice& surface,
+               int frames, const Look& look);
 
 /// Measures every volume method with every surface method, judges them by the reference, and writes
 /// the images: reference.exr and .png, and for each run NAME.exr, NAME.png, NAME_error.png (`error_colours`)

@@ -2,30 +2,33 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
+#include <limits>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "frame/none.h"
 #include "frame/point_reader.h"
+#include "quality/statistics.h"
 
 namespace airlight::quality {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int k_staged_frames = 3;        ///< frames with timed stages; enough for a median
-constexpr double k_slow_frame_ms = 2000;  ///< a frame slower than this is timed once
-constexpr double k_warm_up_ms = 300;      ///< of frames, in which a GPU's clock rises
+constexpr int k_staged_frames = 3;    ///< frames with timed stages; enough for a median
+constexpr double k_warm_up_ms = 300;  ///< of frames, in which a GPU's clock rises
 
 double milliseconds_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+/// Time that all of the process's threads have spent on CPUs.
+double cpu_milliseconds() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
 }
 
 /// The median time of each stage.
@@ -111,7 +114,7 @@ frame::SurfacePoints Measurer::surface_points() {
 }
 
 struct Measurer::TimedFrame {
-  double ms;
+  double ms, cpu_ms;
   std::map<std::string, double> stages_ms;                     ///< empty unless timed
   std::vector<std::map<std::string, double>> light_stages_ms;  ///< the same, for each light
   SharedReference::Work work;
@@ -122,10 +125,16 @@ Measurer::TimedFrame Measurer::render_timed(frame::SurfaceShadow& shadow, frame:
   gpu::StageTimer timer(with_stages ? &context_ : nullptr);
   reference_->take_work();
   context_.finish();
+  const double cpu_start = cpu_milliseconds();
   const Clock::time_point start = Clock::now();
   frame_.render(*view_, shadow, airlight, timer, resting);
   context_.finish();
-  TimedFrame timed{milliseconds_since(start), timer.milliseconds(), {}, reference_->take_work()};
+  TimedFrame timed{milliseconds_since(start),
+                   cpu_milliseconds() - cpu_start,
+                   timer.milliseconds(),
+                   {},
+                   reference_->take_work()};
+  if (!timed.work.kept_ms.empty()) timed.cpu_ms = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t light = 0; light < view_->lights.size(); ++light)
     timed.light_stages_ms.push_back(timer.milliseconds(light));
   // An image that was kept costs what it cost when it was traced.
@@ -138,6 +147,16 @@ Measurer::TimedFrame Measurer::render_timed(frame::SurfaceShadow& shadow, frame:
     }
   }
   return timed;
+}
+
+Measurer::TimedFrame Measurer::render_timed(std::span<const scene::View> views, std::size_t index,
+                                            frame::SurfaceShadow& shadow, frame::Airlight& airlight,
+                                            bool with_stages) {
+  if (view_ != &views[index]) look_at(views[index]);
+  lend(*reference_, airlight);
+  lend(*reference_, shadow);
+  return render_timed(shadow, airlight, with_stages,
+                      index == 0 ? frame::Resting::redrawn : frame::Resting::kept);
 }
 
 void Measurer::warm_up(frame::SurfaceShadow& shadow, frame::Airlight& airlight) {
@@ -165,16 +184,19 @@ Measurer::Measurement Measurer::measure(const VolumeChoice& volume, const Surfac
   // Frames with timed stages, then whole ones.
   progress(0.0);
   std::vector<TimedFrame> staged = {render_timed(*shadow, *airlight, true)};
-  std::vector<double> times = {staged[0].ms}, tracing = {staged[0].work.airlight_ms};
+  std::vector<double> times = {staged[0].ms}, cpu_times = {staged[0].cpu_ms},
+                      tracing = {staged[0].work.airlight_ms};
   if (staged[0].ms <= k_slow_frame_ms) {
     staged.clear();  // that one was part of the warm-up
     times.clear();
+    cpu_times.clear();
     tracing.clear();
     warm_up(*shadow, *airlight);
     while (staged.size() < k_staged_frames) staged.push_back(render_timed(*shadow, *airlight, true));
     for (int i = 0; i < frames; ++i) {
       const TimedFrame timed = render_timed(*shadow, *airlight, false);
       times.push_back(timed.ms);
+      cpu_times.push_back(timed.cpu_ms);
       tracing.push_back(timed.work.airlight_ms);
       progress(static_cast<double>(i + 1) / frames);
     }
@@ -191,6 +213,7 @@ Measurer::Measurement Measurer::measure(const VolumeChoice& volume, const Surfac
          median_stages(
              staged, [&](const TimedFrame& timed) -> const auto& { return timed.light_stages_ms[light]; })});
   cost.frame_ms = median(times);
+  cost.cpu_ms = median(cpu_times);
   cost.frames = static_cast<int>(times.size());
   cost.rays = staged[0].work.airlight_rays;
   cost.self_error = staged[0].work.self_error;
@@ -210,18 +233,15 @@ Measurer::PathMeasurement Measurer::measure_path(
   Cost& cost = measurement.cost;
   cost.lights.assign(views[0].lights.size(), {true, {}});
   std::vector<std::vector<std::map<std::string, double>>> light_stages_ms(views.size());
-  std::vector<std::vector<double>> times(views.size());
+  std::vector<std::vector<double>> times(views.size()), cpu_times(views.size());
 
   // A play is the images, the stages or the times of all frames.
   double tracing_ms = 0.0;
   const auto play = [&](bool is_first, bool with_stages) {
     for (std::size_t i = 0; i < views.size(); ++i) {
-      look_at(views[i]);
-      lend(*reference_, *airlight);
-      lend(*reference_, *shadow);
-      const TimedFrame timed = render_timed(*shadow, *airlight, with_stages,
-                                            i == 0 ? frame::Resting::redrawn : frame::Resting::kept);
+      const TimedFrame timed = render_timed(views, i, *shadow, *airlight, with_stages);
       times[i].push_back(timed.ms);
+      cpu_times[i].push_back(timed.cpu_ms);
       if (with_stages) frames[i].stages_ms = timed.stages_ms;
       if (with_stages) light_stages_ms[i] = timed.light_stages_ms;
       if (is_first) {
@@ -241,26 +261,28 @@ Measurer::PathMeasurement Measurer::measure_path(
                   static_cast<double>(i + 1) / static_cast<double>(views.size()));
     }
   };
-  const auto median_times = [&] {
+  const auto medians_of = [](const std::vector<std::vector<double>>& values) {
     std::vector<double> medians;
-    for (const std::vector<double>& of_frame : times) medians.push_back(median(of_frame));
+    for (const std::vector<double>& of_frame : values) medians.push_back(median(of_frame));
     return medians;
   };
   play(true, true);
   cost.frames = 1;
-  if (median(median_times()) <= k_slow_frame_ms) {
+  if (median(medians_of(times)) <= k_slow_frame_ms) {
     warm_up(*shadow, *airlight);
     play(false, true);
     times.assign(views.size(), {});
+    cpu_times.assign(views.size(), {});
     for (int i = 0; i < plays; ++i) play(false, false);
     cost.frames = plays;
   }
 
-  const std::vector<double> medians = median_times();
+  const std::vector<double> medians = medians_of(times), cpu_medians = medians_of(cpu_times);
   const double count = static_cast<double>(views.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
     frames[i].ms = medians[i];
     cost.frame_ms += medians[i] / count;
+    cost.cpu_ms += cpu_medians[i] / count;
     for (const auto& [stage, ms] : frames[i].stages_ms) cost.stages_ms[stage] += ms / count;
     for (std::size_t light = 0; light < cost.lights.size(); ++light)
       for (const auto& [stage, ms] : light_stages_ms[i][light])
@@ -269,6 +291,26 @@ Measurer::PathMeasurement Measurer::measure_path(
   if (cost.rays > 0) cost.mrays_per_s = static_cast<double>(cost.rays) / (1e3 * tracing_ms);
   cost.rays /= views.size();
   return measurement;
+}
+
+std::int64_t Measurer::Pair::bytes() const {
+  std::int64_t sum = 0;
+  for (const auto& of_method : {airlight->bytes(), shadow->bytes()})
+    for (const auto& [name, bytes] : of_method) sum += bytes;
+  return sum;
+}
+
+Measurer::Pair Measurer::make(const VolumeChoice& volume, const SurfaceChoice& surface) const {
+  return {volume.method->make(context_, volume.options), surface.method->make(context_, surface.options)};
+}
+
+std::vector<Measurer::FrameTime> Measurer::play(const Pair& pair, std::span<const scene::View> views) {
+  std::vector<FrameTime> times;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const TimedFrame timed = render_timed(views, i, *pair.shadow, *pair.airlight, false);
+    times.push_back({timed.ms, timed.cpu_ms});
+  }
+  return times;
 }
 
 std::vector<frame::DebugImage> Measurer::debug_images(const VolumeChoice& volume) {

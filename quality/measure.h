@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <span>
@@ -32,6 +33,7 @@ struct Cost {
     return std::count_if(lights.begin(), lights.end(), [](const OfLight& light) { return light.is_skipped; });
   }
   double frame_ms = 0.0;
+  double cpu_ms = 0.0;  ///< of the process; NaN where an image was kept from before
   int frames = 0;
   std::map<std::string, std::int64_t> bytes;
   std::uint64_t rays = 0;    ///< 0 for a method that traces none
@@ -50,6 +52,8 @@ struct FrameCost {
 /// and times them.
 class Measurer {
  public:
+  static constexpr double k_slow_frame_ms = 2000;  ///< a frame slower than this is timed once
+
   /// @param geometry, view kept by reference
   /// @param cache see SharedReference
   Measurer(gpu::Context& context, const scene::Geometry& geometry, const scene::View& view,
@@ -93,6 +97,25 @@ class Measurer {
                                std::span<const scene::View> views, int plays,
                                const std::function<void(std::size_t, const frame::FrameImages&)>& look);
 
+  /// A pair of methods, made.
+  struct Pair {
+    std::unique_ptr<frame::Airlight> airlight;
+    std::unique_ptr<frame::SurfaceShadow> shadow;
+
+    std::int64_t bytes() const;  ///< of the methods alone
+  };
+  Pair make(const VolumeChoice& volume, const SurfaceChoice& surface) const;
+
+  /// The time of a whole frame.
+  struct FrameTime {
+    double ms, cpu_ms;  ///< as in Cost
+  };
+
+  /// Draws each of the views once, for those who order frames themselves. As along a path what rests from one
+  /// to the next is not drawn anew.
+  /// @param views kept by reference; the last one is looked at afterwards
+  std::vector<FrameTime> play(const Pair& pair, std::span<const scene::View> views);
+
   /// Pictures of what a volume method holds: see frame::Airlight::debug_images. Draws one more frame.
   std::vector<frame::DebugImage> debug_images(const VolumeChoice& volume);
 
@@ -100,6 +123,8 @@ class Measurer {
 
  private:
   struct TimedFrame;
+  TimedFrame render_timed(std::span<const scene::View> views, std::size_t index, frame::SurfaceShadow& shadow,
+                          frame::Airlight& airlight, bool with_stages);
   void warm_up(frame::SurfaceShadow& shadow, frame::Airlight& airlight);
   TimedFrame render_timed(frame::SurfaceShadow& shadow, frame::Airlight& airlight, bool with_stages,
                           frame::Resting resting = frame::Resting::redrawn);

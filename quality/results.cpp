@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "quality/results_json.h"
 #include "scene/error.h"
 #include "scene/view_fields.h"
 
@@ -17,11 +18,6 @@ namespace airlight::quality {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// A relative figure; null where it is none, as against a dark reference.
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
 
 Json single(float value) {
   return std::stod(fmt::format("{}", value));
@@ -72,7 +68,7 @@ Json lights_json(const Run& run, const scene::View& view) {
 }
 
 Json spread_json(const Spread& spread) {
-  return {{"mean", number(spread.mean)}, {"worst", number(spread.worst)}};
+  return {{"mean", number_json(spread.mean)}, {"worst", number_json(spread.worst)}};
 }
 
 Json path_json(const Run& run) {
@@ -82,9 +78,9 @@ Json path_json(const Run& run) {
                       {"stages_ms", frame.cost.stages_ms},
                       {"redrawn", frame.cost.redrawn},
                       {"rmse", frame.errors.airlight.rmse},
-                      {"rrmse", number(frame.errors.airlight.rrmse)},
-                      {"bias", number(frame.errors.airlight.bias)},
-                      {"same_surface_rrmse", number(frame.errors.same_surface.rrmse)},
+                      {"rrmse", number_json(frame.errors.airlight.rrmse)},
+                      {"bias", number_json(frame.errors.airlight.bias)},
+                      {"same_surface_rrmse", number_json(frame.errors.same_surface.rrmse)},
                       {"wrong_pixels", frame.errors.surface.wrong_pixels},
                       {"undecided_pixels", frame.errors.surface.undecided_pixels},
                       {"pixels", frame.errors.surface.pixels}});
@@ -103,6 +99,20 @@ Json surface_json(const SurfaceError& error) {
           {"pixels", error.pixels}};
 }
 
+}  // namespace
+
+Json number_json(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json device_json(const gpu::Device& device, unsigned cores) {
+  return {{"renderer", device.renderer}, {"version", device.version}, {"cores", cores}};
+}
+
+std::string text_of_json(const Json& json, int indentation) {
+  return json.dump(indentation, ' ', false, Json::error_handler_t::replace);
+}
+
 Json run_json(const Run& run, const scene::View& view) {
   const AirlightError& error = run.errors.airlight;
   Json json = {{"volume", run.volume},
@@ -115,26 +125,27 @@ Json run_json(const Run& run, const scene::View& view) {
                {"lights", lights_json(run, view)},
                {"skipped_lights", run.cost.skipped_lights()},
                {"frame_ms", run.cost.frame_ms},
+               {"cpu_ms", number_json(run.cost.cpu_ms)},
                {"frames", run.cost.frames},
                {"bytes", run.cost.bytes},
                {"error",
                 {{"airlight",
                   {{"dark", error.is_dark},
-                   {"bias", number(error.bias)},
+                   {"bias", number_json(error.bias)},
                    {"rmse", error.rmse},
-                   {"rrmse", number(error.rrmse)},
-                   {"mae", number(error.mae)},
-                   {"p99", number(error.p99)},
-                   {"max", number(error.max)},
-                   {"relmse", number(error.relmse)},
-                   {"leaked", number(error.leaked)},
-                   {"spurious", number(error.spurious)}}},
+                   {"rrmse", number_json(error.rrmse)},
+                   {"mae", number_json(error.mae)},
+                   {"p99", number_json(error.p99)},
+                   {"max", number_json(error.max)},
+                   {"relmse", number_json(error.relmse)},
+                   {"leaked", number_json(error.leaked)},
+                   {"spurious", number_json(error.spurious)}}},
                  {"airlight_same_surface",
                   {{"dark", run.errors.same_surface.is_dark},
-                   {"bias", number(run.errors.same_surface.bias)},
-                   {"rrmse", number(run.errors.same_surface.rrmse)},
-                   {"leaked", number(run.errors.same_surface.leaked)},
-                   {"spurious", number(run.errors.same_surface.spurious)},
+                   {"bias", number_json(run.errors.same_surface.bias)},
+                   {"rrmse", number_json(run.errors.same_surface.rrmse)},
+                   {"leaked", number_json(run.errors.same_surface.leaked)},
+                   {"spurious", number_json(run.errors.same_surface.spurious)},
                    {"left_out_pixels", run.errors.same_surface.left_out_pixels}}},
                  {"surface", surface_json(run.errors.surface)}}}};
   if (run.cost.rays > 0) {
@@ -149,6 +160,8 @@ Json run_json(const Run& run, const scene::View& view) {
         {{"name", image.name}, {"caption", image.caption}, {"white", single(image.white)}});
   return json;
 }
+
+namespace {
 
 /// Lays out rows of cells: the first `left` columns to the left, the others to the right.
 std::string layout(const std::vector<std::vector<std::string>>& rows, std::size_t left) {
@@ -328,12 +341,9 @@ std::string results_json(const Comparison& comparison) {
       {"shadow_map", comparison.shadow_map_size},
       {"exposure",
        {{"value", single(comparison.exposure.value)}, {"automatic", comparison.exposure.is_automatic}}},
-      {"device",
-       {{"renderer", comparison.device.renderer},
-        {"version", comparison.device.version},
-        {"cores", comparison.cores}}},
+      {"device", device_json(comparison.device, comparison.cores)},
       {"reference",
-       {{"bound", number(comparison.truth.bound)},
+       {{"bound", number_json(comparison.truth.bound)},
         {"ms", comparison.truth.ms},
         {"shadows_per_pixel", comparison.truth.shadows_per_pixel},
         {"lit_runs_per_pixel", comparison.truth.lit_runs_per_pixel},
@@ -346,13 +356,12 @@ std::string results_json(const Comparison& comparison) {
     for (const ComparedPath::Frame& frame : comparison.path->frames)
       frames.push_back({{"time", frame.time},
                         {"moves", scene::motion_name(frame.motion)},
-                        {"bound", number(frame.truth.bound)},
+                        {"bound", number_json(frame.truth.bound)},
                         {"mean_airlight", frame.truth.mean_airlight},
                         {"dark", frame.truth.is_dark()}});
     json["path"] = {{"seconds", comparison.path->seconds}, {"frames", frames}};
   }
-  // File names need not be UTF-8; JSON must be.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return text_of_json(json, 2) + "\n";
 }
 
 std::string results_table(const Comparison& comparison) {

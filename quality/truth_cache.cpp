@@ -2,15 +2,13 @@
 
 #include <array>
 #include <charconv>
-#include <cstddef>
-#include <cstdint>
-#include <span>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "quality/hash.h"
 #include "scene/error.h"
 #include "scene/light_texture.h"
 
@@ -19,30 +17,6 @@ namespace {
 
 using scene::Error;
 using scene::ExitCode;
-
-/// FNV-1a of 128 bits, as 32 hexadecimal digits. Fowler, Noll, Vo, "The FNV Non-Cryptographic Hash
-/// Algorithm".
-class Hash {
- public:
-  void add(std::span<const std::byte> bytes) {
-    constexpr auto k_prime = (static_cast<Word>(1) << 88) + 0x13b;
-    for (const std::byte byte : bytes) word_ = (word_ ^ static_cast<Word>(byte)) * k_prime;
-  }
-
-  template <typename T>
-  void add(const std::vector<T>& values) {
-    add(std::as_bytes(std::span(values)));
-  }
-
-  std::string text() const {
-    return fmt::format("{:016x}{:016x}", static_cast<std::uint64_t>(word_ >> 64),
-                       static_cast<std::uint64_t>(word_));
-  }
-
- private:
-  using Word = unsigned __int128;
-  Word word_ = static_cast<Word>(0x6c62272e07bb0142) << 64 | 0x62b821756295c58d;
-};
 
 /// Numbers with every bit they have.
 template <typename Vector>
@@ -64,7 +38,7 @@ constexpr std::array<const char*, 3> k_channels = {"R", "G", "B"};
 }  // namespace
 
 TruthCache::TruthCache(std::filesystem::path folder, const scene::Geometry& geometry, const scene::View& view)
-    : folder_(std::move(folder)), view_(view) {
+    : folder_(std::move(folder)), geometry_(geometry), view_(view) {
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   if (error) {
@@ -72,42 +46,48 @@ TruthCache::TruthCache(std::filesystem::path folder, const scene::Geometry& geom
                 fmt::format("the folder cannot be made: {}", error.message()),
                 "choose another one with --cache");
   }
+}
+
+std::string hash_of_geometry(const scene::Geometry& geometry) {
   Hash hash;
   hash.add(geometry.positions);
   hash.add(geometry.triangles);
-  geometry_hash_ = hash.text();
+  return hash.text();
 }
 
-std::string TruthCache::key(std::size_t light_index, const std::string& what) const {
-  const scene::Camera& camera = view_.camera;
-  const scene::Light& light = view_.lights[light_index];
-  const scene::Medium& medium = view_.medium;
-  std::string key = fmt::format(
-      "{} of version {}\n"
-      "geometry {}\n"
+std::string words_of_view(const scene::View& view, std::size_t light_index) {
+  const scene::Camera& camera = view.camera;
+  const scene::Light& light = view.lights[light_index];
+  const scene::Medium& medium = view.medium;
+  std::string words = fmt::format(
       "camera {} {} {} {:a} {}x{}\n"
       "light {} {} {} {} {}\n"
       "medium {} {} {} {:a} {:a} {}\n",
-      what, reference::k_truth_version, geometry_hash_, exact(camera.eye), exact(camera.target),
-      exact(camera.up), camera.vertical_fov_degrees, view_.size.x, view_.size.y, static_cast<int>(light.kind),
-      exact(light.position), exact(light.intensity), exact(light.towards), exact(light.irradiance),
-      exact(medium.sigma_s), exact(medium.sigma_a), static_cast<int>(medium.phase), medium.g,
-      medium.rayleigh_weight, medium.top ? fmt::format("{:a}", *medium.top) : "everywhere");
+      exact(camera.eye), exact(camera.target), exact(camera.up), camera.vertical_fov_degrees, view.size.x,
+      view.size.y, static_cast<int>(light.kind), exact(light.position), exact(light.intensity),
+      exact(light.towards), exact(light.irradiance), exact(medium.sigma_s), exact(medium.sigma_a),
+      static_cast<int>(medium.phase), medium.g, medium.rayleigh_weight,
+      medium.top ? fmt::format("{:a}", *medium.top) : "everywhere");
   if (light.texture) {
     Hash hash;
     hash.add(light.texture->texels());
-    key += fmt::format("texture {} {}x{}\n", hash.text(), light.texture->size().x, light.texture->size().y);
+    words += fmt::format("texture {} {}x{}\n", hash.text(), light.texture->size().x, light.texture->size().y);
   }
   if (light.cone)
-    key += fmt::format("cone {} {:a} {:a}\n", exact(light.cone->axis), light.cone->inner, light.cone->outer);
-  if (light.range) key += fmt::format("range {:a}\n", *light.range);
-  return key;
+    words +=
+        fmt::format("cone {} {:a} {:a}\n", exact(light.cone->axis), light.cone->inner, light.cone->outer);
+  if (light.range) words += fmt::format("range {:a}\n", *light.range);
+  return words;
+}
+
+std::string TruthCache::key(std::size_t light, const std::string& what) const {
+  if (geometry_hash_.empty()) geometry_hash_ = hash_of_geometry(geometry_);
+  return fmt::format("{} of version {}\ngeometry {}\n{}", what, reference::k_truth_version, geometry_hash_,
+                     words_of_view(view_, light));
 }
 
 std::optional<Image> TruthCache::load(const std::string& key) const {
-  Hash hash;
-  hash.add(std::as_bytes(std::span(key)));
-  const std::filesystem::path file = folder_ / (hash.text() + ".exr");
+  const std::filesystem::path file = folder_ / (hash_of(key) + ".exr");
   if (std::error_code error; !std::filesystem::exists(file, error)) return {};
   Image image = read_exr(file);
   const auto kept = image.metadata.find(k_key);
@@ -117,13 +97,12 @@ std::optional<Image> TruthCache::load(const std::string& key) const {
 }
 
 void TruthCache::save(const std::string& key, Image image) const {
-  Hash hash;
-  hash.add(std::as_bytes(std::span(key)));
+  const std::string hash = hash_of(key);
   image.size = view_.size;
   image.metadata[k_key] = key;
   // Under another name until it is whole: whoever looks finds all of it or nothing.
-  const std::filesystem::path file = folder_ / (hash.text() + ".exr");
-  const std::filesystem::path part = folder_ / fmt::format("{}.{}.part", hash.text(), getpid());
+  const std::filesystem::path file = folder_ / (hash + ".exr");
+  const std::filesystem::path part = folder_ / fmt::format("{}.{}.part", hash, getpid());
   write_exr(part, image);
   std::error_code error;
   std::filesystem::rename(part, file, error);

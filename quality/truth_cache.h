@@ -11,12 +11,18 @@
 
 namespace airlight::quality {
 
+/// Of positions and triangles: FNV-1a, the same on every machine.
+std::string hash_of_geometry(const scene::Geometry& geometry);
+
+/// All of a view that one of its lights' airlight and shadows depend on, with every bit of each number.
+std::string words_of_view(const scene::View& view, std::size_t light);
+
 /// The truth of a view, kept on disk so that nothing is traced twice: one OpenEXR file an image, named by a
 /// hash of everything that it depends on, `reference::k_truth_version` included. Two programs may use one
 /// folder at the same time.
 class TruthCache {
  public:
-  /// @param folder made where it is missing
+  /// @param folder made where it is missing; @param geometry kept by reference
   /// @throws scene::Error (bad_file) where it cannot be made
   TruthCache(std::filesystem::path folder, const scene::Geometry& geometry, const scene::View& view);
 
@@ -34,7 +40,8 @@ class TruthCache {
   void save(const std::string& key, Image image) const;
 
   std::filesystem::path folder_;
-  std::string geometry_hash_;
+  const scene::Geometry& geometry_;
+  mutable std::string geometry_hash_;  ///< empty until it is asked for
   scene::View view_;
 };
 

@@ -1,11 +1,15 @@
 // The contract of the command line: what goes in, what comes out, where, and with which exit code.
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
 #include <iterator>
+#include <map>
+#include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <fmt/format.h>
@@ -16,8 +20,10 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/schema.h"
+#include "quality/axes.h"
 #include "quality/compare.h"
 #include "quality/image_io.h"
+#include "quality/run_file.h"
 #include "scene/view_fields.h"
 #include "support/paths.h"
 
@@ -131,7 +137,8 @@ void expect_one_line_error(const Result& result, int exit_code) {
 using Commands = CommandLine;
 
 TEST_F(Commands, HelpAndVersionAreData) {
-  for (const Words& words : {Words{"--help"}, {"render", "--help"}, {"compare", "--help"}, {"--version"}}) {
+  for (const Words& words :
+       {Words{"--help"}, {"render", "--help"}, {"compare", "--help"}, {"sweep", "--help"}, {"--version"}}) {
     const Result result = airlight(words);
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.out, HasSubstr("airlight"));
@@ -140,7 +147,7 @@ TEST_F(Commands, HelpAndVersionAreData) {
 }
 
 TEST_F(Commands, HelpExplainsEveryFieldOfAView) {
-  for (const char* command : {"render", "compare"}) {
+  for (const char* command : {"render", "compare", "sweep"}) {
     const std::string help = airlight({command, "--help"}).out;
     for (const scene::FieldInfo* field : scene::every_field()) {
       EXPECT_THAT(help, HasSubstr(fmt::format("--{} {} ", field->name, field->placeholder)));
@@ -198,10 +205,10 @@ TEST_P(Usage, IsRefusedInOneLineThatNamesTheCulprit) {
 
 INSTANTIATE_TEST_SUITE_P(
     Words, Usage,
-    testing::Values(Misuse{{}, "names no command"}, Misuse{{"sweep", "window"}, "sweep"},
-                    Misuse{{"tune", "window"}, "tune"}, Misuse{{"report", "out"}, "report"},
-                    Misuse{{"--quiet"}, "--quiet"}, Misuse{{"render"}, "SCENE"},
-                    Misuse{{"render", "cornell"}, "-o"}, Misuse{{"render", "cornell", "-o"}, "-o"},
+    testing::Values(Misuse{{}, "names no command"}, Misuse{{"tune", "window"}, "tune"},
+                    Misuse{{"report", "out"}, "report"}, Misuse{{"--quiet"}, "--quiet"},
+                    Misuse{{"render"}, "SCENE"}, Misuse{{"render", "cornell"}, "-o"},
+                    Misuse{{"render", "cornell", "-o"}, "-o"},
                     Misuse{{"render", "cornell", "-o", "x.jpg"}, ".exr"}, Misuse{{"scenes", "more"}, "more"},
                     Misuse{{"render", "cornell", "more", "-o", "x.exr"}, "more"},
                     Misuse{{"--debug"}, "--debug"}, Misuse{{"--light-texture"}, "--light-texture"},
@@ -310,6 +317,29 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{{"--volume", "vsv,none"}, "one method"}, Misuse{{"--volume", ""}, "--volume"},
         Misuse{{"--volume", "vsv:integral=sum"}, "riemann"},
         Misuse{{"--volume", "vsv:shade=1"}, "integral"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Sweeps, Usage,
+    testing::Values(
+        Misuse{{"sweep"}, "SCENE: it is missing"}, Misuse{{"sweep", "cornell"}, "--volume: it is missing"},
+        Misuse{{"sweep", "cornell", "--volume", "vsv:alpha={64,128"}, "a brace opens that none closes"},
+        Misuse{{"sweep", "cornell", "--volume", "vsv:alpha=64,128}"}, "a brace closes that none opens"},
+        Misuse{{"sweep", "cornell", "--volume", "vsv:alpha={64,{128}}"}, "braces within braces"},
+        Misuse{{"sweep", "cornell", "--volume", "vsv:alpha={64,}"}, "a value in braces is empty"},
+        Misuse{{"sweep", "cornell", "--volume", "vsv:alpha={64,zwei}"}, "'zwei' is not a whole number"},
+        Misuse{{"sweep", "cornell", "--volume", "vsv:alpha={64,64}"}, "vsv:alpha=64 is there twice"},
+        Misuse{{"sweep", "cornell", "--volume", "vsv", "--shadow-map", "{64,0}"}, "--shadow-map"},
+        Misuse{{"sweep", "cornell", "--volume", "vsv", "--shadow-map", "{64"}, "--shadow-map: '{64'"},
+        Misuse{{"sweep", "cornell", "--volume", "vsv", "--surface", "{none,fog}"}, "'fog'"},
+        Misuse{{"sweep", "cornell", "--volume", "vsv", "--all"}, "--all"},
+        Misuse{{"sweep", "cornell", "--volume", "vsv", "--frames", "0"}, "--frames"},
+        Misuse{{"sweep", "cornell", "--volume", "vsv", "--shard", "0/2"}, "--shard"},
+        Misuse{{"sweep", "cornell", "--volume", "vsv", "--shard", "3/2"}, "no shard 3 of 2"},
+        Misuse{{"sweep", "cornell", "--volume", "vsv", "--shard", "2"}, "'2' is not K/N"},
+        Misuse{{"sweep", "cornell", "--volume", "vsv", "--baseline", "vsv,none"}, "--baseline"},
+        Misuse{{"sweep", "cornell", "--volume", "vsv", "--baseline", "fog"}, "'fog'"},
+        Misuse{{"sweep", "cornell", "--volume", "vsv", "--max-error", "1"}, "no such option"},
+        Misuse{{"sweep", "cornell", "--volume", "reference", "--alpha", "64"}, "--alpha: none of"}));
 
 /// What is meant for methods, where none of those chosen looks at it.
 INSTANTIATE_TEST_SUITE_P(
@@ -1327,6 +1357,224 @@ TEST_F(Paths, ThatCannotBeAreErrors) {
   EXPECT_THAT(result.err, HasSubstr("into.toml, frame 0 (0 s)"));
   expect_one_line_error(airlight({"compare", "cornell", "--path", "path.toml", "--debug"}), 2);
   expect_one_line_error(airlight({"render", "cornell", "--path", "none.toml", "-o", "x.exr"}), 3);
+}
+
+class Sweep : public CommandLine {
+ protected:
+  Result sweep(const Words& arguments) const {
+    Words all = {"sweep", "cornell", "--size", "24x24", "--theta", "64", "--frames", "2"};
+    for (const char* name : {"--size", "--theta", "--frames"}) {
+      if (std::find(arguments.begin(), arguments.end(), name) == arguments.end()) continue;
+      const auto usual = std::find(all.begin(), all.end(), name);
+      all.erase(usual, usual + 2);
+    }
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    return airlight(all);
+  }
+
+  std::vector<Json> lines_of(const std::string& name) const {
+    std::vector<Json> lines;
+    if (!fs::exists(file(name))) return {};
+    for (const std::string& line : quality::whole_lines(file(name))) lines.push_back(Json::parse(line));
+    return lines;
+  }
+
+  /// What of runs does not depend on when and where they ran, by their keys, each of which is there once.
+  std::map<std::string, Json> errors_of(const Words& files) const {
+    std::map<std::string, Json> errors;
+    for (const std::string& name : files)
+      for (const Json& line : lines_of(name)) {
+        const Json told = {line["error"], line["bytes"], line["settings"], line["views"]["rrmse"]};
+        EXPECT_TRUE(errors.emplace(line["key"], told).second) << line["key"] << " is there twice";
+      }
+    return errors;
+  }
+};
+
+const Words k_grids = {"--volume", "vsv:alpha={16,32}:phi={128,256}", "--shadow-map", "{32,64}"};
+
+Words operator+(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+TEST_F(Sweep, WritesALineForEachOfTheProduct) {
+  const Result result = sweep(k_grids + Words{"--surface", "shadow-map,none", "--frames", "6", "-o", "out"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, IsEmpty());
+  EXPECT_THAT(result.err, HasSubstr("16 measured, 0 were there"));
+  const Json schema = Json::parse(read_text(AIRLIGHT_SCHEMA));
+  const Json& of_run = schema.at("properties").at("runs").at("items");
+  std::set<std::tuple<std::string, std::string, int>> seen;
+  for (const Json& line : lines_of("out/runs.jsonl")) {
+    EXPECT_THAT(tests::schema_violations(line, of_run, "", &schema), IsEmpty());
+    for (const char* name :
+         {"key", "airlight", "scene", "subject", "size", "shadow_map", "device", "timing", "views"})
+      EXPECT_TRUE(line.contains(name)) << name;
+    seen.emplace(line["volume"].get<std::string>(), line["surface"].get<std::string>(),
+                 line["shadow_map"].get<int>());
+    EXPECT_EQ(line["settings"]["theta"], 64);
+    const Json& timing = line["timing"];
+    EXPECT_EQ(timing["baseline"]["volume"], "vsv");
+    EXPECT_EQ(timing["baseline"]["shadow_map"], 32);
+    EXPECT_EQ(timing["rounds"], 6);
+    EXPECT_GT(timing["ratio"]["median"], 0.0);
+    EXPECT_LE(timing["ratio"]["low"], timing["ratio"]["median"]);
+    EXPECT_GE(timing["ratio"]["high"], timing["ratio"]["median"]);
+    EXPECT_FALSE(timing.contains("odd_ratio"));
+    EXPECT_GT(line["cpu_ms"], 0.0);
+    EXPECT_EQ(line["views"]["same_surface_rrmse"][0], line["error"]["airlight_same_surface"]["rrmse"]);
+  }
+  EXPECT_EQ(seen.size(), 16u);
+}
+
+TEST_F(Sweep, FindsWhatCompareFinds) {
+  ASSERT_EQ(sweep({"--volume", "vsv:phi={128,256}", "--shadow-map", "64", "-o", "out"}).exit_code, 0);
+  for (const Json& line : lines_of("out/runs.jsonl")) {
+    const std::string words = line["command"];
+    ASSERT_THAT(words, StartsWith("airlight compare cornell "));
+    const std::string command =
+        fmt::format("{} {}", quality::shell_quote(AIRLIGHT_BINARY), words.substr(words.find(' ')));
+    ASSERT_EQ(shell(command).exit_code, 0) << command;
+    const Json results =
+        Json::parse(read_text(file("out/" + line["key"].get<std::string>() + "/results.json")));
+    EXPECT_EQ(results["runs"][0]["error"], line["error"]);
+    EXPECT_EQ(results["runs"][0]["bytes"], line["bytes"]);
+  }
+}
+
+TEST_F(Sweep, KeysAreOfWhatIsMeasuredAlone) {
+  // A setting that is written otherwise is the same one; what no method reads makes none.
+  ASSERT_EQ(sweep({"--volume", "vsv:theta=64,vsv:phi=512,vsv,reference", "--surface", "none", "--shadow-map",
+                   "{32,64}", "-o", "out"})
+                .exit_code,
+            0);
+  const auto first = lines_of("out/runs.jsonl");
+  EXPECT_EQ(first.size(), 3u);
+  for (const Json& line : first) EXPECT_EQ(line["shadow_map"].is_null(), line["volume"] == "reference");
+
+  // Another view is another subject, and has other keys.
+  ASSERT_EQ(sweep({"--volume", "vsv", "--surface", "none", "--shadow-map", "32", "--fov", "20", "-o", "out"})
+                .exit_code,
+            0);
+  const auto both = lines_of("out/runs.jsonl");
+  ASSERT_EQ(both.size(), 4u);
+  EXPECT_NE(both[3]["subject"], both[0]["subject"]);
+
+  // Whoever changes what a key is of loses what was measured.
+  EXPECT_EQ(both[3]["key"], "cc6d1a999efa1dad0d9900bf1a73b014");
+}
+
+TEST_F(Sweep, MeasuresNothingTwice) {
+  ASSERT_EQ(sweep({"--volume", "vsv:phi={128,256}", "--shadow-map", "32", "-o", "out"}).exit_code, 0);
+  const std::string before = read_text(file("out/runs.jsonl"));
+  const Result again = sweep({"--volume", "vsv:phi={256,384,128}", "--shadow-map", "32", "-o", "out"});
+  EXPECT_THAT(again.err, HasSubstr("1 measured, 2 were there"));
+  const std::string after = read_text(file("out/runs.jsonl"));
+  EXPECT_THAT(after, StartsWith(before));
+  EXPECT_EQ(errors_of({"out/runs.jsonl"}).size(), 3u);
+
+  // A line that a kill has torn is measured anew, one that is no run is an error.
+  std::ofstream(file("out/runs.jsonl"), std::ios::binary) << after.substr(0, after.size() - 100);
+  const Result torn = sweep({"--volume", "vsv:phi={256,384,128}", "--shadow-map", "32", "-o", "out"});
+  EXPECT_THAT(torn.err, HasSubstr("1 measured, 2 were there"));
+  EXPECT_EQ(errors_of({"out/runs.jsonl"}).size(), 3u);
+  std::ofstream(file("out/runs.jsonl"), std::ios::app) << "{}\n";
+  const Result broken = sweep({"--volume", "vsv", "--shadow-map", "32", "-o", "out"});
+  expect_one_line_error(broken, 3);
+  EXPECT_THAT(broken.err, HasSubstr("runs.jsonl, line 4: it is no run"));
+}
+
+TEST_F(Sweep, KilledAndResumedEndsWithTheSame) {
+  const Words words = {"--volume",     "vsv:alpha={8,16,32}:phi={128,256},vsv:phi={128,256}:integral=riemann",
+                       "--surface",    "{shadow-map,none}",
+                       "--shadow-map", "32"};
+  const auto start = std::chrono::steady_clock::now();
+  ASSERT_EQ(sweep(words + Words{"-o", "whole"}).exit_code, 0);
+  const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - start;
+  const auto whole = errors_of({"whole/runs.jsonl"});
+  ASSERT_EQ(whole.size(), 16u);
+
+  // Killed at moments that spread over a whole sweep's time.
+  std::string command = quality::shell_quote(AIRLIGHT_BINARY) +
+                        " sweep cornell --size 24x24 --theta 64 --frames 2 --quiet -o out";
+  for (const std::string& word : words) command += fmt::format(" {}", quality::shell_quote(word));
+  std::size_t lines = 0;
+  for (const double part : {0.05, 0.8, 0.4, 0.9, 0.2, 0.7}) {
+    shell(fmt::format("timeout -s KILL {:.3f} {}; true", part * duration.count(), command));
+    const std::size_t kept = errors_of({"out/runs.jsonl"}).size();
+    EXPECT_GE(kept, lines);
+    lines = kept;
+  }
+  ASSERT_EQ(sweep(words + Words{"-o", "out"}).exit_code, 0);
+  EXPECT_EQ(errors_of({"out/runs.jsonl"}), whole);
+}
+
+TEST_F(Sweep, ShardsJoinedAreTheWhole) {
+  ASSERT_EQ(sweep(k_grids + Words{"-o", "whole"}).exit_code, 0);
+  for (const char* shard : {"1/3", "2/3", "3/3"})
+    ASSERT_EQ(sweep(k_grids + Words{"--shard", shard, "-o", "out"}).exit_code, 0);
+  const Words shards = {"out/runs-1-of-3.jsonl", "out/runs-2-of-3.jsonl", "out/runs-3-of-3.jsonl"};
+  for (const std::string& shard : shards) EXPECT_FALSE(lines_of(shard).empty()) << shard;
+  EXPECT_EQ(errors_of(shards), errors_of({"whole/runs.jsonl"}));
+  EXPECT_THAT(sweep(k_grids + Words{"-o", "out"}).err, HasSubstr("0 measured, 8 were there"));
+}
+
+TEST_F(Sweep, OfTheSameShardGoesOnOnlyOnce) {
+  fs::create_directories(file("out"));
+  const std::string command = quality::shell_quote(AIRLIGHT_BINARY);
+  const Result locked = shell("flock out/runs.jsonl " + command + " sweep cornell --volume vsv -o out");
+  expect_one_line_error(locked, 3);
+  EXPECT_THAT(locked.err, HasSubstr("another sweep writes it"));
+}
+
+TEST_F(Sweep, OfAllTakesUpToFortySettingsOfEachMethod) {
+  std::size_t expected = 0;
+  for (const quality::VolumeMethod& method : quality::volume_methods())
+    if (method.traits.is_judged()) expected += quality::settings_worth_sweeping(method, {}, 40).size();
+  const Result result = airlight({"sweep", "cornell", "--size", "8x8", "--shadow-map", "32", "--frames", "1",
+                                  "--all", "--shard", "1/20", "-o", "out"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto shard = lines_of("out/runs-1-of-20.jsonl");
+  EXPECT_THAT(shard.size(), testing::AllOf(testing::Gt(0u), testing::Lt(expected)));
+  for (const Json& line : shard) EXPECT_EQ(line["surface"], "shadow-map");
+}
+
+TEST_F(Sweep, ReadsAFileOfAxes) {
+  std::ofstream(file("axes.toml")) << "shadow-map = [32, 64]\n[[volume]]\nmethod = 'vsv'\nphi = [128, 256]\n"
+                                      "integral = 'riemann'\n[[surface]]\nmethod = 'none'\n";
+  ASSERT_EQ(sweep({"--axes", "axes.toml", "-o", "out"}).exit_code, 0);
+  ASSERT_EQ(sweep({"--volume", "vsv:phi={128,256}:integral=riemann", "--surface", "none", "--shadow-map",
+                   "{32,64}", "-o", "same"})
+                .exit_code,
+            0);
+  EXPECT_EQ(errors_of({"out/runs.jsonl"}), errors_of({"same/runs.jsonl"}));
+  const Result twice = sweep({"--axes", "axes.toml", "--surface", "none", "-o", "out"});
+  expect_one_line_error(twice, 2);
+  EXPECT_THAT(twice.err, HasSubstr("--surface: the file of axes has it too"));
+}
+
+TEST_F(Paths, AreSweptViewByView) {
+  const Result result = small({"sweep", "cornell", "--path", "path.toml", "--volume", "vsv:theta={32,64}",
+                               "--frames", "2", "-o", "out"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Json results = compare({"--path", "path.toml", "--volume", "vsv:theta=32,vsv:theta=64"});
+  std::ifstream stream(file("out/runs.jsonl"));
+  std::size_t lines = 0;
+  for (std::string text; std::getline(stream, text); ++lines) {
+    const Json line = Json::parse(text);
+    const Json& run = results["runs"][line["volume"] == "vsv:theta=32" ? 0 : 1];
+    EXPECT_EQ(line["error"], run["error"]);
+    ASSERT_EQ(line["views"]["rrmse"].size(), 5u);
+    EXPECT_EQ(line["views"]["frame_ms"].size(), 5u);
+    for (std::size_t i = 0; i < 5; ++i) {
+      EXPECT_EQ(line["views"]["rrmse"][i], run["path"]["frames"][i]["rrmse"]);
+      EXPECT_EQ(line["views"]["same_surface_rrmse"][i], run["path"]["frames"][i]["same_surface_rrmse"]);
+    }
+    EXPECT_GT(line["timing"]["odd_ratio"]["median"], 0.0);
+    EXPECT_GT(line["timing"]["even_ratio"]["median"], 0.0);
+  }
+  EXPECT_EQ(lines, 2u);
 }
 
 }  // namespace

@@ -1,0 +1,156 @@
+#include "quality/sweep.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "app/commands.h"
+#include "app/memory.h"
+#include "app/output.h"
+#include "quality/axes.h"
+#include "scene/numbers.h"
+
+namespace airlight::app {
+namespace {
+
+using scene::Error;
+using scene::ExitCode;
+
+constexpr std::size_t k_most_of_all = 40;  ///< settings of each method that --all takes
+
+std::string join(const std::vector<std::string>& words) {
+  std::string list;
+  for (const std::string& word : words) list += fmt::format("{}{}", list.empty() ? "" : ",", word);
+  return list;
+}
+
+/// The axes of the file and of the options.
+quality::Axes axes_of(const Options& options) {
+  quality::Axes axes;
+  if (const auto file = options.get("axes")) axes = quality::read_axes(*file);
+  const auto add = [&](const char* name, std::optional<std::string>& axis) {
+    const auto text = options.get(name);
+    if (text && axis)
+      throw Error(ExitCode::usage, fmt::format("--{}", name), "the file of axes has it too",
+                  "leave one of them out");
+    if (text) axis = text;
+  };
+  add("volume", axes.volumes);
+  add("surface", axes.surfaces);
+  add("shadow-map", axes.shadow_maps);
+  if (options.all && axes.volumes)
+    throw Error(ExitCode::usage, "--all", "it takes every method, and some are named too",
+                "leave one of them out");
+  if (!options.all && !axes.volumes)
+    throw Error(ExitCode::usage, "--volume", "it is missing",
+                "give lists of values, as in --volume 'vsv:alpha={64,128,256}', or --axes, or --all");
+  return axes;
+}
+
+/// What --all takes; without what cannot show the views, which is counted.
+std::vector<quality::VolumeChoice> every_volume(const Options& options, const Subject& subject,
+                                                std::size_t& refused) {
+  std::vector<quality::VolumeChoice> volumes;
+  for (const quality::VolumeMethod& method : quality::volume_methods()) {
+    if (!method.traits.is_judged()) continue;
+    for (quality::VolumeChoice& volume :
+         quality::settings_worth_sweeping(method, common_method_options(options), k_most_of_all)) {
+      quality::VolumeChoice fitted = volume;
+      try {
+        fitted.fit(subject.views());
+        volumes.push_back(std::move(volume));
+      } catch (const Error&) {
+        ++refused;
+      }
+    }
+  }
+  if (volumes.empty()) throw Error(ExitCode::usage, "--all", "no method can show the view");
+  return volumes;
+}
+
+/// Each with each; a shadow map that neither method reads is no axis.
+std::vector<quality::Setting> product(const std::vector<quality::VolumeChoice>& volumes,
+                                      const std::vector<quality::SurfaceChoice>& surfaces,
+                                      const std::vector<int>& shadow_maps) {
+  std::vector<quality::Setting> settings;
+  for (const quality::VolumeChoice& volume : volumes)
+    for (const quality::SurfaceChoice& surface : surfaces)
+      for (const int shadow_map : shadow_maps) {
+        const bool is_read = quality::is_read("shadow-map", {&volume, 1}, {&surface, 1});
+        settings.push_back({volume, surface, is_read ? std::optional(shadow_map) : std::nullopt});
+      }
+  return settings;
+}
+
+}  // namespace
+
+void sweep(const Options& options) {
+  // Everything that can be wrong with the command is found before the driver is woken.
+  const quality::Axes axes = axes_of(options);
+  const std::vector<quality::CommonOption> common = common_method_options(options);
+  std::vector<quality::VolumeChoice> volumes;
+  if (axes.volumes)
+    volumes = quality::parse_volumes(join(quality::expand_braces("--volume", *axes.volumes)), common);
+  std::vector<quality::SurfaceChoice> surfaces = quality::parse_surfaces(
+      join(quality::expand_braces("--surface", axes.surfaces.value_or("shadow-map"))), common);
+  std::vector<int> shadow_maps;
+  for (const std::string& word : quality::expand_braces("--shadow-map", axes.shadow_maps.value_or("2048")))
+    shadow_maps.push_back(scene::parse_count("--shadow-map", word));
+  const quality::Shard shard = quality::parse_shard("--shard", options.get("shard").value_or("1/1"));
+  const int rounds = scene::parse_count("--frames", options.get("frames").value_or("9"));
+  const std::vector<quality::VolumeChoice> baselines =
+      quality::parse_volumes(options.get("baseline").value_or("vsv"), common);
+  if (baselines.size() != 1)
+    throw Error(ExitCode::usage, "--baseline", "it names several methods", "name one");
+  Subject subject = make_subject(options);
+  std::size_t refused = 0;
+  if (options.all) volumes = every_volume(options, subject, refused);
+  require_read(options, volumes, surfaces);
+  fit_to_view(volumes, surfaces, subject);
+  quality::VolumeChoice baseline_volume = baselines[0];
+  baseline_volume.fit(subject.views());
+
+  const std::filesystem::path folder = output_folder(options);
+  require_folder(folder);
+  if (!options.quiet) {
+    say_warnings(subject.scene.report);
+    if (refused > 0) say(fmt::format("airlight: warning: settings that cannot show the view: {}", refused));
+  }
+  require_memory(
+      {.size = subject.view.size,
+       .bytes_per_pixel = bytes_of_compare(subject) + (shadow_maps.size() > 1 ? k_bytes_of_render : 0),
+       .shadow_map = *std::max_element(shadow_maps.begin(), shadow_maps.end()),
+       .triangles = subject.scene.geometry.triangles.size()});
+
+  const quality::Subject swept{quality::hash_of_subject(subject.scene.geometry, subject.views()),
+                               options.scene, subject.scene, subject.views(), subject.path.has_value()};
+  const quality::SurfaceChoice usual_surface = quality::parse_surfaces("shadow-map")[0];
+  const auto command = [&](const quality::Setting& setting) {
+    Options of_run = options;
+    of_run.command = "compare";
+    const std::vector<std::string> without = {"axes", "baseline", "shard", "shadow-map", "frames"};
+    std::string line = command_of_pair(of_run, setting.volume, setting.surface, without);
+    if (setting.shadow_map) line += fmt::format(" --shadow-map {}", *setting.shadow_map);
+    return line;
+  };
+  quality::RunFile file(folder, shard);
+  quality::SweepCount count;
+  {
+    ProgressLine progress(options.quiet);
+    gpu::Context context;
+    count = quality::sweep(
+        context, file,
+        {.subject = swept,
+         .settings = quality::distinct_settings(swept.hash, product(volumes, surfaces, shadow_maps), shard),
+         .baseline = product({baseline_volume}, {usual_surface}, {shadow_maps[0]})[0],
+         .rounds = rounds,
+         .cache = options.get("cache").value_or((folder / "truth").string()),
+         .command = command,
+         .progress = progress.follower()});
+  }
+  if (!options.quiet)
+    say(fmt::format("{}: {} measured, {} were there", file.path().string(), count.measured, count.found));
+}
+
+}  // namespace airlight::app
