@@ -16,6 +16,9 @@ void compare(const Options& options);
 /// Measures every setting that is asked for and not yet there: see quality::sweep.
 void sweep(const Options& options);
 
+/// Tells what sweeps have measured: see quality::read_fronts.
+void front(const Options& options);
+
 void list_scenes();
 void print_info();
 

@@ -47,7 +47,7 @@ CLI::App& add_image_command(CLI::App& app, Options& options, const char* name, c
 /// be.
 /// @returns Options::given
 std::vector<std::pair<std::string, std::string>> read_words(const CLI::App& app, int argc, char** argv) {
-  constexpr const char* k_commands = "use render, compare, sweep, scenes or info";
+  constexpr const char* k_commands = "use render, compare, sweep, front, scenes or info";
   if (argc < 2) throw Error(ExitCode::usage, "command line", "it names no command", k_commands);
   if (argv[1][0] == '-') {
     if (app.get_option_no_throw(argv[1])) return {};
@@ -57,7 +57,8 @@ std::vector<std::pair<std::string, std::string>> read_words(const CLI::App& app,
   if (commands.empty()) throw Error(ExitCode::usage, argv[1], "there is no such command", k_commands);
   const CLI::App& command = *commands[0];
   const std::string help = fmt::format("see airlight {} --help", argv[1]);
-  int names_left = command.get_option_no_throw("SCENE") ? 1 : 0;
+  constexpr int k_any = 1 << 30;
+  int names_left = command.get_option_no_throw("DIR") ? k_any : command.get_option_no_throw("SCENE") ? 1 : 0;
   std::vector<std::pair<std::string, std::string>> given;
   std::set<const CLI::Option*> seen;
   for (int i = 2; i < argc; ++i) {
@@ -160,6 +161,13 @@ int run(int argc, char** argv) {
   sweep_command.footer(quality::method_help());
   compare_command.footer(quality::method_help());
 
+  CLI::App& front_command = *app.add_subcommand(
+      "front", "for each error the cheapest method and setting of what sweep has measured");
+  front_command.add_option("DIR", options.places, "folders that sweep has written, or .jsonl files")
+      ->type_name("");
+  add_option(front_command,
+             {"json", "FILE", "write the fronts there too; - means standard output, instead of the tables"});
+
   CLI::App& scenes_command = *app.add_subcommand("scenes", "lists the built-in scenes");
   CLI::App& info_command = *app.add_subcommand("info", "tells the driver and its limits");
 
@@ -184,6 +192,8 @@ int run(int argc, char** argv) {
   } else if (sweep_command.parsed()) {
     require_scene("airlight sweep window --all -o out/sweep");
     sweep(options);
+  } else if (front_command.parsed()) {
+    front(options);
   } else if (scenes_command.parsed()) {
     list_scenes();
   } else if (info_command.parsed()) {

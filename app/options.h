@@ -25,14 +25,15 @@ struct OptionLine {
 /// What `render`, `compare` and `sweep` share.
 std::span<const OptionLine> common_options();
 
-/// The command line of `render`, `compare` or `sweep` as it was typed.
+/// The command line of `render`, `compare`, `sweep` or `front` as it was typed.
 struct Options {
   std::string command;  ///< "render", "compare" or "sweep"
   std::string scene;    ///< SCENE
   /// Each option that was typed, by its name without dashes, and its value, in their order: those of lights
   /// may be there several times.
   std::vector<std::pair<std::string, std::string>> given;
-  std::string output;  ///< -o; empty without
+  std::vector<std::string> places;  ///< DIR of `front`
+  std::string output;               ///< -o; empty without
   bool quiet = false;
   bool debug = false;  ///< of `compare`
   bool all = false;    ///< of `sweep`

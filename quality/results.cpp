@@ -161,9 +161,6 @@ Json run_json(const Run& run, const scene::View& view) {
   return json;
 }
 
-namespace {
-
-/// Lays out rows of cells: the first `left` columns to the left, the others to the right.
 std::string layout(const std::vector<std::vector<std::string>>& rows, std::size_t left) {
   std::vector<std::size_t> widths(rows[0].size());
   for (const auto& row : rows) {
@@ -181,6 +178,8 @@ std::string layout(const std::vector<std::vector<std::string>>& rows, std::size_
   }
   return text;
 }
+
+namespace {
 
 /// Time and error of each run along a path, and apart for each motion from frame to frame.
 std::string path_tables(const Comparison& comparison) {

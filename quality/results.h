@@ -109,6 +109,9 @@ std::string results_json(const Comparison& comparison);
 /// The comparison as a table for a terminal, each figure with its unit and what it was compared with.
 std::string results_table(const Comparison& comparison);
 
+/// Lays out rows of cells: the first `left` columns to the left, the others to the right.
+std::string layout(const std::vector<std::vector<std::string>>& rows, std::size_t left);
+
 /// The names of all stages of all runs.
 std::set<std::string> stages_of(const Comparison& comparison);
 

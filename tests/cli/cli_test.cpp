@@ -137,8 +137,12 @@ void expect_one_line_error(const Result& result, int exit_code) {
 using Commands = CommandLine;
 
 TEST_F(Commands, HelpAndVersionAreData) {
-  for (const Words& words :
-       {Words{"--help"}, {"render", "--help"}, {"compare", "--help"}, {"sweep", "--help"}, {"--version"}}) {
+  for (const Words& words : {Words{"--help"},
+                             {"render", "--help"},
+                             {"compare", "--help"},
+                             {"sweep", "--help"},
+                             {"front", "--help"},
+                             {"--version"}}) {
     const Result result = airlight(words);
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_THAT(result.out, HasSubstr("airlight"));
@@ -1552,6 +1556,27 @@ TEST_F(Sweep, ReadsAFileOfAxes) {
   const Result twice = sweep({"--axes", "axes.toml", "--surface", "none", "-o", "out"});
   expect_one_line_error(twice, 2);
   EXPECT_THAT(twice.err, HasSubstr("--surface: the file of axes has it too"));
+}
+
+TEST_F(Sweep, ShowsItsFront) {
+  ASSERT_EQ(
+      sweep({"--volume", "vsv:phi={128,256},reference", "--shadow-map", "32", "--frames", "6", "-o", "a"})
+          .exit_code,
+      0);
+  const Result tables = airlight({"front", "a"});
+  EXPECT_EQ(tables.exit_code, 0) << tables.err;
+  EXPECT_THAT(tables.err, IsEmpty());
+  EXPECT_THAT(tables.out,
+              testing::AllOf(HasSubstr("cornell, 24x24 pixels, 1 view, 3 runs"), HasSubstr("lead")));
+  const Result json = airlight({"front", "a", "a/runs.jsonl", "--json", "-"});
+  const Json fronts = Json::parse(json.out);
+  ASSERT_EQ(fronts["fronts"].size(), 1u);
+  EXPECT_EQ(fronts["fronts"][0]["runs"], 3u);
+  EXPECT_EQ(airlight({"front", "a", "--json", "front.json"}).out, tables.out);
+  EXPECT_EQ(Json::parse(read_text(file("front.json"))), fronts);
+  expect_one_line_error(airlight({"front", "nosuch"}), 3);
+  expect_one_line_error(airlight({"front"}), 2);
+  expect_one_line_error(airlight({"front", "a", "--volume", "vsv"}), 2);
 }
 
 TEST_F(Paths, AreSweptViewByView) {
