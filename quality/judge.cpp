@@ -1,6 +1,9 @@
 #include "quality/judge.h"
 
+#include <limits>
 #include <span>
+
+#include "quality/flip.h"
 
 namespace airlight::quality {
 namespace {
@@ -14,6 +17,10 @@ std::span<const float> floats(const std::vector<glm::vec3>& image) {
 Errors judge(const frame::FrameImages& images, const Truth& truth) {
   Errors errors;
   errors.airlight = airlight_error(floats(images.airlight), floats(truth.airlight), truth.figures.floor);
+  constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
+  errors.flip = errors.airlight.is_dark
+                    ? k_none
+                    : hdr_flip(images.airlight, truth.airlight, images.size, truth.figures.floor);
   errors.same_surface = same_surface_error(floats(images.airlight), images.distance, floats(truth.airlight),
                                            truth.distance, truth.figures.floor);
   for (std::size_t light = 0; light < truth.verdicts.size(); ++light) {

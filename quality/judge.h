@@ -9,6 +9,7 @@ namespace airlight::quality {
 /// How far a frame is from the truth.
 struct Errors {
   AirlightError airlight{};
+  double flip = 0.0;                ///< the airlight's hdr_flip; NaN where the truth is dark
   SameSurfaceError same_surface{};  ///< the airlight's
   SurfaceError surface{};           ///< summed over the lights that were not skipped
 };

@@ -90,6 +90,8 @@ in them, or 1e-30 W/(m² sr): an error relative to it would be one of rounding, 
 <dt>bias [%]</dt><dd>mean(x) / mean(r) − 1.</dd>
 <dt>mae, p99, max [%]</dt><dd>Mean, 99th percentile and largest value of |x − r|, divided by mean(r).</dd>
 <dt>relmse</dt><dd>mean((x − r)² / (r² + ε)), ε = 0.01 · mean(r)²; no unit.</dd>
+<dt>ꟻLIP</dt><dd>Mean of HDR-ꟻLIP (Andersson et al. 2021), from 0 to 1: how much the airlight seems to change to one who flips between
+both images at 67 pixels a degree, at the worst of exposures a stop apart that show the reference's brightest pixel and its median.</dd>
 <dt>leaked, spurious shadow [%]</dt><dd>Σ max(0, x − r) / Σ r and Σ max(0, r − x) / Σ r, over the pixels of same-surface rrmse:
 light, and shadow, where there is none.</dd>
 <dt>wrong pixels, undecided</dt><dd>Surface shadow: pixels lit where a triangle hides the point that the frame shades, or dark where none
@@ -117,6 +119,7 @@ std::string results_rows(const Comparison& comparison) {
             cell(fmt::format("{}", run.errors.same_surface.left_out_pixels)) +
             cell(percent(error.bias, "+")) + cell(percent(error.mae)) + cell(percent(error.p99)) +
             cell(percent(error.max)) + cell(error.is_dark ? "dark" : fmt::format("{:.3g}", error.relmse)) +
+            cell(error.is_dark ? "dark" : fmt::format("{:.3g}", run.errors.flip)) +
             cell(percent(run.errors.same_surface.leaked)) + cell(percent(run.errors.same_surface.spurious)) +
             cell(fmt::format("{} / {}", run.errors.surface.wrong_pixels, run.errors.surface.pixels)) +
             cell(fmt::format("{}", run.errors.surface.undecided_pixels)) +
@@ -313,7 +316,8 @@ std::string report_html(const Comparison& comparison) {
       "<th class=\"name\">surface</th><th>frame [ms]</th><th>frames</th><th>march/frame</th><th>Mrays/s</th>"
       "<th>rmse [W/(m² sr)]</th><th>rrmse [%]</th><th>same-surface rrmse [%]</th><th>left out "
       "[pixels]</th><th>bias [%]</th><th>mae "
-      "[%]</th><th>p99 [%]</th><th>max [%]</th><th>relmse</th><th>leaked [%]</th><th>spurious shadow [%]</th>"
+      "[%]</th><th>p99 [%]</th><th>max [%]</th><th>relmse</th><th>ꟻLIP</th><th>leaked [%]</th><th>spurious "
+      "shadow [%]</th>"
       "<th>wrong pixels</th><th>undecided</th><th>memory [MiB]</th></tr></thead><tbody>\n" +
       results_rows(comparison) + "</tbody></table></div>\n";
   html += "<h2>Stages [ms]</h2>\n<div class=\"scroll\">" + stages_table(comparison) + "</div>\n";

@@ -81,6 +81,7 @@ Json path_json(const Run& run) {
                       {"rrmse", number_json(frame.errors.airlight.rrmse)},
                       {"bias", number_json(frame.errors.airlight.bias)},
                       {"same_surface_rrmse", number_json(frame.errors.same_surface.rrmse)},
+                      {"flip", number_json(frame.errors.flip)},
                       {"wrong_pixels", frame.errors.surface.wrong_pixels},
                       {"undecided_pixels", frame.errors.surface.undecided_pixels},
                       {"pixels", frame.errors.surface.pixels}});
@@ -138,6 +139,7 @@ Json run_json(const Run& run, const scene::View& view) {
                    {"p99", number_json(error.p99)},
                    {"max", number_json(error.max)},
                    {"relmse", number_json(error.relmse)},
+                   {"flip", number_json(run.errors.flip)},
                    {"leaked", number_json(error.leaked)},
                    {"spurious", number_json(error.spurious)}}},
                  {"airlight_same_surface",
@@ -376,9 +378,9 @@ std::string results_table(const Comparison& comparison) {
   if (comparison.path) text += path_tables(comparison);
 
   // What each run cost and how far off it is.
-  std::vector<std::vector<std::string>> rows = {{"volume", "surface", "frame ms", "march/frame", "Mrays/s",
-                                                 "rmse", "rrmse %", "bias %", "p99 %", "same-surface rrmse %",
-                                                 "left out px", "wrong px", "undecided px"}};
+  std::vector<std::vector<std::string>> rows = {
+      {"volume", "surface", "frame ms", "march/frame", "Mrays/s", "rmse", "rrmse %", "bias %", "p99 %",
+       "flip", "same-surface rrmse %", "left out px", "wrong px", "undecided px"}};
   for (const Run& run : comparison.runs) {
     const AirlightError& error = run.errors.airlight;
     rows.push_back({run.volume, run.surface, fmt::format("{:.2f}", run.cost.frame_ms),
@@ -387,6 +389,7 @@ std::string results_table(const Comparison& comparison) {
                     fmt::format("{:.3g}", error.rmse), error_text(error.rrmse, truth.bound),
                     error.is_dark ? "dark" : fmt::format("{:+.3f}", 100.0 * error.bias),
                     error.is_dark ? "dark" : fmt::format("{:.3g}", 100.0 * error.p99),
+                    error.is_dark ? "dark" : fmt::format("{:.3g}", run.errors.flip),
                     error_text(run.errors.same_surface.rrmse, truth.bound),
                     fmt::format("{}", run.errors.same_surface.left_out_pixels),
                     fmt::format("{}", run.errors.surface.wrong_pixels),
@@ -420,7 +423,8 @@ std::string results_table(const Comparison& comparison) {
       "above the bound of the reference's own error. same-surface: without the pixels where rasterisation "
       "shows "
       "another\n"
-      "surface than the ray hits (left out). wrong px: surfaces lit where any triangle hides the frame's own "
+      "surface than the ray hits (left out). flip: mean of HDR-FLIP, 0 to 1, at 67 pixels a degree. wrong "
+      "px: surfaces lit where any triangle hides the frame's own "
       "point,\n"
       "or dark where none does, of {}. undecided px: where the rounding of the point decides; they are not "
       "wrong.\n",

@@ -243,11 +243,12 @@ class Sweep {
     run.cost.cpu_ms = timed.cpu_ms;
     run.cost.frames = timed.rounds;
     // What a path's frames have is kept in columns; a view is a path of one.
-    Json rrmse = Json::array(), same_surface = Json::array();
+    Json rrmse = Json::array(), same_surface = Json::array(), flip = Json::array();
     if (run.path.empty()) run.path.push_back({{}, run.errors});
     for (const Run::Frame& frame : run.path) {
       rrmse.push_back(number_json(frame.errors.airlight.rrmse));
       same_surface.push_back(number_json(frame.errors.same_surface.rrmse));
+      flip.push_back(number_json(frame.errors.flip));
     }
     run.path.clear();
 
@@ -275,7 +276,8 @@ class Sweep {
         {"device", device_json(context_.device(), std::max(1u, std::thread::hardware_concurrency()))}};
     line.update(run_json(run, subject_.views[0]));
     line["timing"] = timing;
-    line["views"] = {{"frame_ms", timed.view_ms}, {"rrmse", rrmse}, {"same_surface_rrmse", same_surface}};
+    line["views"] = {
+        {"frame_ms", timed.view_ms}, {"rrmse", rrmse}, {"same_surface_rrmse", same_surface}, {"flip", flip}};
     return text_of_json(line);
   }
 
