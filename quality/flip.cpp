@@ -119,7 +119,8 @@ class FilteredBand {
     const auto padded = static_cast<std::size_t>(width + 2 * reach_);
     for (std::vector<float>& row : opponents_) row.resize(padded);
     for (std::vector<float>& plane : planes_)
-      plane.resize(static_cast<std::size_t>(k_band + 2 * reach_) * static_cast<std::size_t>(width));
+      plane.resize((static_cast<std::size_t>(k_band) + 2 * static_cast<std::size_t>(reach_)) *
+                   static_cast<std::size_t>(width));
     for (std::vector<float>& row : rows_) row.resize(static_cast<std::size_t>(width));
   }
 
@@ -373,9 +374,10 @@ std::vector<float> flip_exposures(std::span<const glm::vec3> r, double floor) {
   // 2021, exposures.
   const double start = std::log2(white / most), stop = std::log2(white / median);
   const int count = std::max(2, static_cast<int>(std::ceil(stop - start)));
-  std::vector<float> factors;
+  std::vector<float> factors(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i)
-    factors.push_back(static_cast<float>(std::exp2(start + (stop - start) * i / (count - 1))));
+    factors[static_cast<std::size_t>(i)] =
+        static_cast<float>(std::exp2(start + (stop - start) * i / (count - 1)));
   return factors;
 }
 
