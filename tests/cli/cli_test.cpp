@@ -1465,8 +1465,13 @@ TEST_F(Sweep, KeysAreOfWhatIsMeasuredAlone) {
   ASSERT_EQ(both.size(), 4u);
   EXPECT_NE(both[3]["subject"], both[0]["subject"]);
 
-  // Whoever changes what a key is of loses what was measured.
-  EXPECT_EQ(both[3]["key"], "cc6d1a999efa1dad0d9900bf1a73b014");
+  // Whoever changes what a key is of loses what was measured. A new option of a method does so for its runs
+  // alone.
+  ASSERT_EQ(airlight({"sweep", "cornell", "--size", "24x24", "--volume", "none", "--surface", "none",
+                      "--baseline", "none", "--frames", "1", "-o", "none"})
+                .exit_code,
+            0);
+  EXPECT_EQ(lines_of("none/runs.jsonl").at(0)["key"], "fc6bfee2319f68f31d8e107b2ca94d0a");
 }
 
 TEST_F(Sweep, MeasuresNothingTwice) {
