@@ -15,8 +15,8 @@ enum class Culling {
   /// Those that face the light, of parts that have two sides and eye and light outside of them
   /// (scene::Components::has_two_sides). What they hide is hidden by others of their part, too: a ray from
   /// the light that comes out of a part again has crossed it once from its back for every time from its
-  /// front. That holds for what the eye sees; of a point that rasterisation shows just within another part,
-  /// where two touch, the triangles that hide it are among those left out.
+  /// front. That holds for what the eye sees. Rasterisation shows a little more: at a silhouette the inner
+  /// side of a part, and where two touch what lies just within the other; what hides that is left out.
   automatic,
 };
 
@@ -70,7 +70,7 @@ frame::Option culling_option(Culling Options::*field) {
   return frame::word_option<Options, Culling>(
       {.name = "cull",
        .meaning = "which triangles are left out beforehand",
-       .quality = "auto: a pixel in a million, where parts touch",
+       .quality = "auto: up to three pixels in ten thousand, where parts touch and at silhouettes",
        .cost = "auto asks half as many triangles of closed parts",
        .sweep = {"none", "auto"}},
       {{"none", "none"}, {"auto", "those that face the light, of closed parts around neither eye nor light"}},
