@@ -5,6 +5,7 @@
 
 namespace airlight::shaders {
 #include "media/layer.glsl"
+#include "media/march_steps.glsl"
 #include "media/medium.glsl"
 #include "media/reach.glsl"
 #include "media/row_end.glsl"

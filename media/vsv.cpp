@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "epipolar/debug_images.h"
+#include "media/lighting.h"
 #include "media/medium.h"
 #include "scene/light_texture.h"
 
@@ -23,27 +24,10 @@ namespace airlight::media {
 namespace {
 
 /// Rows of the table in α. With lobes of |g| ≤ 0.8, 128 rows err by up to 0.03 % of an image of empty fog
-/// (rrmse, as all of these); 512 rows by 0.3 % with |g| = 0.99, by 0.8 % with |g| = k_narrowest_lobe.
+/// (rrmse, as all of these); 512 rows by 0.3 % with |g| = 0.99, by 0.8 % with the narrowest lobe that is
+/// taken.
 std::uint32_t table_rows(bool rough) {
   return rough ? 512 : 128;
-}
-constexpr float k_narrowest_lobe = 0.995f;
-
-bool lies_above(const scene::Medium& medium, const glm::dvec3& point) {
-  return medium.top && point.y > *medium.top;
-}
-
-/// One of shaders/media/layer.glsl.
-std::uint32_t layer_of(const scene::Medium& medium, const scene::Light& light, const glm::dvec3& eye) {
-  if (!medium.top) return shaders::k_no_layer;
-  const bool is_entered =
-      !scene::is_sun(light) && (lies_above(medium, eye) || lies_above(medium, light.position));
-  return is_entered ? shaders::k_layer_entered : shaders::k_layer_around;
-}
-
-/// Of shaders/media/reach.glsl.
-std::uint32_t reach_of(const scene::Light& light) {
-  return (light.cone ? shaders::k_reach_of_cone : 0) | (light.range ? shaders::k_reach_of_range : 0);
 }
 
 /// Rows and columns of the table of a light texture's colours (shaders/media/vsv_colour.glsl): 16 rows and a
@@ -65,18 +49,8 @@ const char* beyond_tables(const scene::View& view, const scene::Light& light) {
   return nullptr;
 }
 
-/// Whether the integrand changes much within a cell of φ: a lobe of the phase function is narrow, or light
-/// reaches not farther than a few cells of φ. Those span, in all, not much more than D; where they do not
-/// count from a lamp that the layer does not hold, no more than the scene either.
-bool is_rough(const frame::FrameInputs& inputs, std::uint32_t layer) {
-  constexpr float k_wide_lobe = 0.8f, k_deep = 8.0f;
-  const scene::View& view = inputs.view;
-  double reach = glm::distance(inputs.light().position, view.camera.eye);
-  if (layer == shaders::k_layer_entered && !inputs.scene.box().empty())
-    reach = std::min(reach, scene::reach_from(view.camera.eye, inputs.scene.box()));
-  const glm::vec3 depth = (view.medium.sigma_s + view.medium.sigma_a) * static_cast<float>(reach);
-  return std::abs(view.medium.g) > k_wide_lobe || std::max({depth.x, depth.y, depth.z}) > k_deep;
-}
+/// An optical depth of D beyond which light reaches not farther than a few cells of φ.
+constexpr float k_deep = 8.0f;
 
 shaders::Angle alpha_max(const shaders::EpipolarBlock& space, const epipolar::Resolution& resolution) {
   return shaders::alpha_of_cell(space, shaders::Cell(static_cast<float>(resolution.alpha)));
@@ -159,12 +133,7 @@ VsvIntegral VsvOptions::used_integral(const scene::View& view) const {
 }
 
 std::optional<frame::Refusal> VsvOptions::refusal(const scene::View& view) const {
-  if (scene::has_g(view.medium.phase) && std::abs(view.medium.g) > k_narrowest_lobe) {
-    return frame::Refusal{{},
-                          fmt::format("it cannot follow the lobe of g = {:g}: the limit is |g| = {:g}",
-                                      view.medium.g, k_narrowest_lobe),
-                          "use a g nearer to 0, or the method reference"};
-  }
+  if (auto narrow = narrow_lobe(view.medium)) return narrow;
   if (integral != VsvIntegral::table && integral != VsvIntegral::factored) return {};
   for (const scene::Light& light : view.lights) {
     if (const char* what = beyond_tables(view, light)) {
@@ -184,7 +153,7 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
 
   // Where the grid's rows lie, and what the shaders are specialised for.
   const std::uint32_t layer = layer_of(inputs.view.medium, inputs.light(), inputs.view.camera.eye);
-  const bool rough = !is_sun && is_rough(inputs, layer);
+  const bool rough = !is_sun && is_rough(inputs, layer, k_deep);
   const shaders::EpipolarBlock space = volume_.find_ranges(inputs, !(rough && has_table));
   const glm::vec3 sigma_t = inputs.view.medium.sigma_s + inputs.view.medium.sigma_a;
   const bool is_grey = sigma_t.x == sigma_t.y && sigma_t.y == sigma_t.z;

@@ -53,7 +53,7 @@ uint next_change(VsvRay ray, inout Runs runs) {
 
 // The next lit run's φ. Beyond the half-plane's last cell all is lit.
 vec2 next_run(VsvRay ray, inout Runs runs) {
-  vec2 run = vec2(runs.lit_from, ray.phi_end);
+  vec2 run = vec2(runs.lit_from, ray.seen.phi_end);
   uint dark_from = next_change(ray, runs);
   if (dark_from < k_phi_count) run.y = phi_of_cell(ray.cells, float(dark_from));
   uint lit_from = dark_from < k_phi_count ? next_change(ray, runs) : k_phi_count;
@@ -96,13 +96,13 @@ vec3 integrate_coloured_panel(LayerRay ray, MediumBlock fog, float from, float t
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   VsvRay ray = vsv_ray(pixel);
-  LayerRay view = in_plane(ray);
+  LayerRay view = in_plane(ray.seen);
   MediumBlock fog = medium;
   if (k_channels == 1u) fog.sigma_t = fog.sigma_t.xxx;  // one exponential instead of three
   float lightest = min(fog.sigma_t.x, min(fog.sigma_t.y, fog.sigma_t.z));
-  LitPart part = part_in_reach(space, light, k_reach, view, ray.phi_start, ray.phi_end);
+  LitPart part = part_in_reach(space, light, k_reach, view, ray.seen.phi_start, ray.seen.phi_end);
   ColourRows rows;
-  if (k_light_textured != 0u) rows = colour_rows(theta_of(space, ray.direction));
+  if (k_light_textured != 0u) rows = colour_rows(theta_of(space, ray.seen.direction));
 
   vec3 sum = vec3(0.0);
   Runs runs = Runs(0.0, true, 0u, uvec4(0u), 0u);
@@ -158,5 +158,5 @@ void main() {
       from = next;
     }
   }
-  airlight = vec4(airlight_scale(space, light, medium, ray.angle.sine) * sum, 1.0);
+  airlight = vec4(airlight_scale(space, light, medium, ray.seen.angle.sine) * sum, 1.0);
 }

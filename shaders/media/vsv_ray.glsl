@@ -1,15 +1,11 @@
 // What the VSV integrators share: a pixel's view ray in the grid. GLSL only.
-#include "epipolar/uniforms.glsl"
+#include "media/medium_ray.glsl"
 #include "epipolar/resolution.glsl"
 #include "epipolar/phi_range.glsl"
-#include "media/layer.glsl"
 #include "media/row_end.glsl"
 
-layout(constant_id = 3) const uint k_phase = 0;
 // Whether a voxel is dark as soon as a triangle touches it, or only where its centre is in shadow.
 layout(constant_id = 8) const uint k_whole_voxels = 0;
-// k_no_layer or one of the others (layer.glsl).
-layout(constant_id = 10) const uint k_layer = 0;
 // Whether view rays of the frame look away from the light.
 layout(constant_id = 11) const uint k_looks_away = 0;
 
@@ -34,45 +30,25 @@ bool is_shadowed(int row, uint cell) {
 }
 
 struct VsvRay {
-  vec3 direction;
-  float entry;       // where it enters the medium [m]
-  float distance;    // where it ends, at a surface or by leaving the medium [m]; k_endless for neither
-  EyeAngle angle;
-  float alpha;
-  float phi_start;   // φ of the entry
-  float phi_end;     // φ of the end
+  MediumRay seen;
   PhiCells cells;
   float end;         // where the ray ends, in cells of φ
   uint last_cell;    // the cell that holds its end
   int last_valid;    // the last cell whose bit says something about this ray; −1 for none
   uint beyond_valid; // all bits set or none: what cells after that one hold
   int texel;         // the first texel of its row of bits
-  bool is_open;      // has no end
 };
 
 VsvRay vsv_ray(ivec2 pixel) {
   VsvRay ray;
-  vec3 direction = view_ray(camera, vec2(pixel) + 0.5);
-  ray.direction = direction;
-  ray.angle = eye_angle(space, direction, quarter_pixel(camera));
-  ray.alpha = alpha_of(ray.angle);
   vec4 surface = texelFetch(surface_image, pixel, 0);
-  ray.entry = 0.0;
-  ray.distance = surface.w == 0.0 ? k_endless : surface.w;
-  if (k_layer != k_no_layer) {
-    vec2 part = part_in_medium(medium, direction.y, ray.distance);
-    if (part.x >= part.y) part = vec2(0.0);  // sees nothing of it
-    ray.entry = part.x;
-    ray.distance = part.y;
-  }
-  ray.is_open = ray.distance == k_endless;
-  ray.phi_start = ray.entry == 0.0 ? 0.0 : phi_at(space, ray.angle, ray.entry);
-  ray.phi_end = phi_of_end(space, ray.angle, ray.distance, ray.is_open);
-  uint i = alpha_cell(space, ray.alpha, k_alpha_count);
+  ray.seen = medium_ray(vec2(pixel) + 0.5, surface.w);
+  vec3 direction = ray.seen.direction;
+  uint i = alpha_cell(space, ray.seen.alpha, k_alpha_count);
   float theta = theta_of(space, direction);
   uint j = theta_cell(space, theta, k_theta_count);
   ray.cells = phi_cells(j);
-  ray.end = cell_of_phi(ray.cells, ray.phi_end);
+  ray.end = cell_of_phi(ray.cells, ray.seen.phi_end);
   ray.last_cell = uint(clamp(floor(ray.end), 0.0, float(k_phi_count) - 1.0));
   ray.texel = int((j * k_alpha_count + i) * k_texels_per_ray);
 
@@ -81,24 +57,24 @@ VsvRay vsv_ray(ivec2 pixel) {
   // 1/sin α grows a leak would circle the epipole.
   ray.last_valid = int(ray.last_cell);
   ray.beyond_valid = 0u;
-  if (ray.distance == surface.w) {
+  if (ray.seen.distance == surface.w) {
     float d_theta = theta_to_centre(space, theta, j);
     float before;  // the last cell that the surface leaves alone
     if (k_whole_voxels != 0u) {
       // The surface itself makes its voxels dark, first where α is largest and at one of the plane's borders.
       float half_plane = 0.5 * space.theta_step / (1.0 + space.theta_growth * cosine(theta_from_middle(space, theta)));
       float nearer = k_length_slack * max(surface.w, space.distance);
-      float d_alpha = alpha_of_cell(space, float(i + 1u)) - ray.alpha;
-      float d_phi = min(phi_to_row_end(space, ray.angle, direction, surface, d_alpha, d_theta - half_plane, nearer),
-                        phi_to_row_end(space, ray.angle, direction, surface, d_alpha, d_theta + half_plane, nearer));
-      before = floor(cell_of_phi(ray.cells, max(ray.phi_end + d_phi, 0.0)) - k_touch_slack) - 1.0;
+      float d_alpha = alpha_of_cell(space, float(i + 1u)) - ray.seen.alpha;
+      float d_phi = min(phi_to_row_end(space, ray.seen.angle, direction, surface, d_alpha, d_theta - half_plane, nearer),
+                        phi_to_row_end(space, ray.seen.angle, direction, surface, d_alpha, d_theta + half_plane, nearer));
+      before = floor(cell_of_phi(ray.cells, max(ray.seen.phi_end + d_phi, 0.0)) - k_touch_slack) - 1.0;
     } else {
       // Half a texel of the shadow map, at the surface, is how far beside the light ray its depth may have been taken.
       vec3 way = to_light(light, surface.w * direction);
       float nearer = light.half_texel * (is_sun(space) ? 1.0 : length(way) * space.inverse_distance);
-      float d_alpha = alpha_of_cell(space, float(i) + 0.5) - ray.alpha;
-      float d_phi = phi_to_row_end(space, ray.angle, direction, surface, d_alpha, d_theta, nearer);
-      before = ceil(cell_of_phi(ray.cells, max(ray.phi_end + d_phi, 0.0)) - 0.5 - k_plane_slack) - 1.0;
+      float d_alpha = alpha_of_cell(space, float(i) + 0.5) - ray.seen.alpha;
+      float d_phi = phi_to_row_end(space, ray.seen.angle, direction, surface, d_alpha, d_theta, nearer);
+      before = ceil(cell_of_phi(ray.cells, max(ray.seen.phi_end + d_phi, 0.0)) - 0.5 - k_plane_slack) - 1.0;
     }
     ray.last_valid = int(clamp(before, -1.0, float(ray.last_cell)));
     // The cells after it are like it. Where there is none they are lit where the surface faces the light, but for what looks away
@@ -110,19 +86,13 @@ VsvRay vsv_ray(ivec2 pixel) {
       is_dark = light_above(light, surface.xyz, surface.w * dot(surface.xyz, direction)) <= 0.0;
       if (k_looks_away != 0u) {
         uint beside_eye = alpha_cell(space, 0.5 * k_pi, k_alpha_count);
-        if (ray.angle.cosine < 0.0 && !is_dark)
+        if (ray.seen.angle.cosine < 0.0 && !is_dark)
           is_dark = is_shadowed(int((j * k_alpha_count + beside_eye) * k_texels_per_ray), 0u);
       }
     }
     ray.beyond_valid = is_dark ? 0xffffffffu : 0u;
   }
   return ray;
-}
-
-// The same in its half-plane.
-LayerRay in_plane(VsvRay ray) {
-  vec3 outward = dot(ray.direction, space.u) * space.u + dot(ray.direction, space.f) * space.f;
-  return LayerRay(ray.direction, unit_or(outward, space.u), ray.alpha, alpha_complement(ray.angle), ray.entry);
 }
 
 // Whether the grid ends before the ray, where all is lit; by more than the rounding of either's end.

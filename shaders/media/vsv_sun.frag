@@ -15,9 +15,9 @@ const uint k_factored = 2u;
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   VsvRay ray = vsv_ray(pixel);
-  SunRay sun = sun_ray(medium, light, ray.direction, ray.distance);
+  SunRay sun = sun_ray(medium, light, ray.seen.direction, ray.seen.distance);
   // From s to the distance along the ray, within the medium.
-  float stretch = 1.0 / ray.angle.sine;
+  float stretch = 1.0 / ray.seen.angle.sine;
   float grid_start = clamp(phi_of_cell(ray.cells, 0.0) * stretch, sun.entry, sun.exit);  // before it and …
   float grid_end = clamp(phi_of_cell(ray.cells, float(k_phi_count)) * stretch, sun.entry, sun.exit);  // … beyond, all is lit
   vec3 integral = vec3(0.0);
@@ -67,5 +67,5 @@ void main() {
     }
     if (goes_beyond(ray)) integral += integrate_sun_run(medium, sun, grid_end, sun.exit);
   }
-  airlight = vec4(sun_scale(light, medium, k_phase, ray.alpha) * integral, 1.0);
+  airlight = vec4(sun_scale(light, medium, k_phase, ray.seen.alpha) * integral, 1.0);
 }

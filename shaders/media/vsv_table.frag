@@ -34,19 +34,19 @@ void main() {
 
   vec3 integral = vec3(0.0);
   if (ray.last_cell < k_direct_cells) {
-    float complement = alpha_complement(ray.angle);
+    float complement = alpha_complement(ray.seen.angle);
     uint shadow = seen_bits(ray, 0u).x;
-    float first = min(phi_of_cell(ray.cells, 0.0), ray.phi_end);
+    float first = min(phi_of_cell(ray.cells, 0.0), ray.seen.phi_end);
     integral += integrate_run(space, medium, k_phase, complement, 0.0, first);
     for (uint k = 0u; k <= ray.last_cell; ++k) {
       if ((shadow >> k & 1u) != 0u) continue;
       float from = phi_of_cell(ray.cells, float(k));
-      float to = min(phi_of_cell(ray.cells, float(k + 1u)), ray.phi_end);
+      float to = min(phi_of_cell(ray.cells, float(k + 1u)), ray.seen.phi_end);
       integral += integrate_run(space, medium, k_phase, complement, from, to);
     }
   } else {
     vec2 range = table_range(space);
-    float row = (table_place(ray.alpha) - range.x) / (range.y - range.x) * (float(k_table_rows) - 1.0);
+    float row = (table_place(ray.seen.alpha) - range.x) / (range.y - range.x) * (float(k_table_rows) - 1.0);
     row = clamp(row, 0.0, float(k_table_rows) - 1.001);
     uint row_start = table_index(uint(row), 0u, 0u);
     float blend = row - floor(row);
@@ -54,7 +54,7 @@ void main() {
     for (uint channel = 0u; channel < k_channels; ++channel) sum[channel] = texelFetch(table, int(row_start + channel)).xy;
     float sign = -1.0;  // − where light ends, + where it begins
     float word_start = phi_of_cell(ray.cells, 0.0);
-    float lit_range = min(word_start, ray.phi_end);  // of φ
+    float lit_range = min(word_start, ray.seen.phi_end);  // of φ
     float dark_range = 0.0;
     uint last = 0u;  // what lies before the first cell counts as lit
     for (uint texel = 0u; texel < texel_count(ray); ++texel) {
@@ -84,11 +84,11 @@ void main() {
     }
     // The ray ends in light: close the last lit run. (Factored, it is the only one.)
     bool ends_in_light = sign < 0.0;
-    if (ends_in_light && ray.is_open) {
+    if (ends_in_light && ray.seen.is_open) {
       uint beyond = row_start + (k_phi_count + 1u) * k_channels;
       for (uint channel = 0u; channel < k_channels; ++channel) sum[channel] += texelFetch(table, int(beyond + channel)).xy;
     } else if (ends_in_light) {
-      add_entry(k_rough != 0u ? place_of_cell(ray.cells, float(ray.last_cell)) : place_of_phi(ray.cells, ray.phi_end), row_start,
+      add_entry(k_rough != 0u ? place_of_cell(ray.cells, float(ray.last_cell)) : place_of_phi(ray.cells, ray.seen.phi_end), row_start,
                 sign, sum);
     }
     for (uint channel = 0u; channel < 3u; ++channel) {
@@ -98,14 +98,14 @@ void main() {
     // What the table leaves to the end: within a cell, or beyond its last column.
     if (k_rough != 0u || k_layer != k_no_layer) {
       float from = k_rough != 0u ? phi_of_cell(ray.cells, float(ray.last_cell)) : ray.cells.phi_max;
-      if (ends_in_light && !ray.is_open)
-        integral += integrate_run(space, medium, k_phase, alpha_complement(ray.angle), from, ray.phi_end);
+      if (ends_in_light && !ray.seen.is_open)
+        integral += integrate_run(space, medium, k_phase, alpha_complement(ray.seen.angle), from, ray.seen.phi_end);
     }
     if (k_factored != 0u) {
-      if (goes_beyond(ray)) lit_range += ray.phi_end - word_start;
+      if (goes_beyond(ray)) lit_range += ray.seen.phi_end - word_start;
       integral *= lit_range / (lit_range + dark_range);
     }
   }
-  vec3 radiance = airlight_scale(space, light, medium, ray.angle.sine) * max(integral, vec3(0.0));
+  vec3 radiance = airlight_scale(space, light, medium, ray.seen.angle.sine) * max(integral, vec3(0.0));
   airlight = vec4(radiance, 1.0);
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The figures of README.md and docs/figures.md:
-# `tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|quadrature|lights|curves|cost|leaks|causes|path [OUT]`.
+# `tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|quadrature|lights|curves|cost|leaks|causes|path|rivals [OUT]`.
 # The paper's Tables 2 to 4 and the bandwidth: build/release/tests/bench/airlight_tables, after ./test.
 #
 # truth     the exact reference against itself refined, against rays, 256×256 and 512×512 pixels
@@ -16,6 +16,7 @@
 # cost      every population × integral × ranges, 1024×1024 pixels: time, error and stages (the paper's Table 1)
 # leaks     the three populations on closed and open models, 512×512 pixels
 # causes    the error of a fine grid, and what it becomes as one thing at a time is at its default
+# rivals    what engines use instead, at each of their costs, 256×256 and 1024×1024: time, error and stages
 # The models are not part of the project: AIRLIGHT_SHARED is the folder that holds scenes/ (default ../shared).
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -188,8 +189,20 @@ case ${1:-} in
         --path tests/bench/rest_$scene.toml --volume vsv,vsv:ranges=full:theta-cells=equal
     done
     ;;
+  rivals)
+    rivals=vsv
+    for spacing in distance angle; do
+      for n in 8 32 128 512; do rivals+=,march:spacing=$spacing:steps=$n; done
+    done
+    for n in 8 32 128; do rivals+=,march:jitter=interleaved:steps=$n,march:jitter=gathered:steps=$n; done
+    for size in 256x256 1024x1024; do
+      for scene in window fence sponza maple sun_sponza; do
+        compare "$scene" --size $size --surface none -o "$out/rivals_${size}_$scene" --volume "$rivals" --quiet
+      done
+    done
+    ;;
   *)
-    echo "usage: tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|quadrature|lights|curves|cost|leaks|causes|path [OUT]" >&2
+    echo "usage: tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|quadrature|lights|curves|cost|leaks|causes|path|rivals [OUT]" >&2
     exit 2
     ;;
 esac

@@ -177,6 +177,9 @@ constexpr Function k_functions[] = {
     {"part_in_reach of cone", 4, k_angle, 2e-3, Scale::one, 100},
     {"part_in_reach of range", 2, k_angle, 1e-3},
     {"reach_share", 1, 0, 1e-4, Scale::one, 20},  // across the axis to 2e-7 of 0.02
+    {"march_steps", 2, 0, 0},
+    {"place_of_step", 1, 6 * k_single, 0},  // beyond the scene by an inverse
+    {"interleaved_offset", 1, 0, 0, Scale::one, 20},
 };
 
 std::vector<Inputs> random_inputs(int count) {

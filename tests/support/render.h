@@ -10,6 +10,7 @@
 
 #include "frame/frame.h"
 #include "frame/none.h"
+#include "media/march.h"
 #include "media/vsv.h"
 #include "quality/metrics.h"
 #include "reference/reference.h"
@@ -31,9 +32,24 @@ struct VsvSettings {
   bool surface_shadows = false;  ///< by the shadow map; else every surface is lit
 };
 
+/// An image by a method of airlight, every surface lit.
+inline frame::FrameImages render_airlight(const scene::Geometry& geometry, const scene::View& view,
+                                          frame::Airlight& airlight, int shadow_map) {
+  frame::Frame frame(gpu_context(), geometry, shadow_map);
+  frame::NoShadow no_shadow;
+  gpu::StageTimer timer(nullptr);
+  frame.render(view, no_shadow, airlight, timer);
+  return frame.read();
+}
+
+inline frame::FrameImages render_march(const scene::Geometry& geometry, const scene::View& view,
+                                       const media::MarchOptions& options, int shadow_map = 1024) {
+  media::March march(options);
+  return render_airlight(geometry, view, march, shadow_map);
+}
+
 inline frame::FrameImages render_vsv(const scene::Geometry& geometry, const scene::View& view,
                                      const VsvSettings& settings = {}) {
-  frame::Frame frame(gpu_context(), geometry, settings.shadow_map);
   media::Vsv vsv(gpu_context(), {.integral = settings.integral,
                                  .phi_cells = settings.phi_cells,
                                  .volume = {.resolution = settings.resolution,
@@ -41,14 +57,11 @@ inline frame::FrameImages render_vsv(const scene::Geometry& geometry, const scen
                                             .scan = settings.scan,
                                             .ranges = settings.ranges,
                                             .theta_cells = settings.theta_cells}});
-  frame::NoShadow no_shadow;
+  if (!settings.surface_shadows) return render_airlight(geometry, view, vsv, settings.shadow_map);
+  frame::Frame frame(gpu_context(), geometry, settings.shadow_map);
   surface_shadows::ShadowMapLookup lookup;
   gpu::StageTimer timer(nullptr);
-  if (settings.surface_shadows) {
-    frame.render(view, lookup, vsv, timer);
-  } else {
-    frame.render(view, no_shadow, vsv, timer);
-  }
+  frame.render(view, lookup, vsv, timer);
   return frame.read();
 }
 

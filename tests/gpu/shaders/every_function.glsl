@@ -6,13 +6,14 @@
 #include "frame/shadow_plane.glsl"
 #include "frame/camera.glsl"
 #include "epipolar/conservative.glsl"
+#include "media/march_steps.glsl"
 #include "media/medium.glsl"
 #include "media/reach.glsl"
 #include "media/row_end.glsl"
 #include "media/sun.glsl"
 #include "media/table_place.glsl"
 
-CONST uint k_outputs = 183u;
+CONST uint k_outputs = 187u;
 
 struct Inputs {
   vec4 a;  // axis, D
@@ -324,6 +325,13 @@ FUNCTION void call_every_function(IN(Inputs) inputs) {
   put(float(part_lit.from));
   put(float(part_lit.to));
   put(reach_share(space, light, k_reach_of_cone, in_layer, phi));
+
+  // A march whose steps go beyond the scene.
+  MarchSteps steps = march_steps(0.1f * t, k_endless, t, 40.0f);
+  put(steps.near_to);
+  put(steps.near_count);
+  put(place_of_step(steps, 12.0f * float(alpha)));
+  put(interleaved_offset(ivec2(int(100.0f * float(alpha)), int(100.0f * float(phi)))));
 }
 
 #endif

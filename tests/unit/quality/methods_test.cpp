@@ -1,5 +1,6 @@
 #include "quality/methods.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "media/march.h"
 #include "media/vsv.h"
 #include "scene/error.h"
 #include "support/paths.h"
@@ -52,9 +54,10 @@ TEST(MethodSpec, OwnKeysOverrideTheCommonOptions) {
       {"--alpha", "alpha", "100"}, {"--theta", "theta", "200"}, {"--phi", "phi", "256"}};
   const std::vector<VolumeChoice> choices = parse_volumes(
       "vsv:alpha=7:phi=128,vsv:integral=riemann:scan=column:phi-cells=equal:populate=conservative,"
-      "reference-sampled:samples=33,reference-march:steps=44:rays=single,none",
+      "reference-sampled:samples=33,reference-march:steps=44:rays=single,none,"
+      "march:steps=9:spacing=angle:jitter=gathered",
       common);
-  ASSERT_EQ(choices.size(), 5u);
+  ASSERT_EQ(choices.size(), 6u);
   EXPECT_EQ(vsv_of(choices[0]).volume.resolution, (epipolar::Resolution{7, 200, 128}));
   const media::VsvOptions& second = vsv_of(choices[1]);
   EXPECT_EQ(second.volume.resolution, (epipolar::Resolution{100, 200, 256}));
@@ -67,6 +70,10 @@ TEST(MethodSpec, OwnKeysOverrideTheCommonOptions) {
   EXPECT_EQ(choices[3].values().at("rays"), frame::OptionValue("single"));
   EXPECT_EQ(choices[4].method->name, "none");
   EXPECT_TRUE(choices[4].values().empty());
+  const auto& march = std::any_cast<const media::MarchOptions&>(choices[5].options);
+  EXPECT_EQ(march.steps, 9);
+  EXPECT_EQ(march.spacing, media::MarchSpacing::angle);
+  EXPECT_EQ(march.jitter, media::MarchJitter::gathered);
 }
 
 TEST(MethodSpec, MistakesAreNamedWithWhatIsValid) {
@@ -87,6 +94,10 @@ TEST(MethodSpec, MistakesAreNamedWithWhatIsValid) {
   EXPECT_THAT(complaint("vsv:populate=screen-space:scan=fused"), HasSubstr("column"));
   EXPECT_THAT(complaint("vsv:integral=sum"), testing::AllOf(HasSubstr("unknown"), HasSubstr("riemann")));
   EXPECT_THAT(complaint("none:alpha=4"), HasSubstr("it has none"));
+  EXPECT_THAT(complaint("march:steps=7"), testing::AllOf(HasSubstr("march:steps=7, steps"), HasSubstr("8")));
+  EXPECT_THAT(complaint("march:steps=513"), HasSubstr("512"));
+  EXPECT_THAT(complaint("march:spacing=phi"), testing::AllOf(HasSubstr("distance"), HasSubstr("angle")));
+  EXPECT_THAT(complaint("march:jitter=on"), testing::AllOf(HasSubstr("interleaved"), HasSubstr("gathered")));
   EXPECT_THAT(complaint("vsv,vsv"), HasSubstr("twice"));
 }
 
@@ -175,13 +186,13 @@ TEST(MethodTables, OfTheReadmeAreTheMethodsOwn) {
                  method_tables());
 }
 
-/// The options of methods as the schema has them, a line each.
+/// The options of methods as the schema has them, a line each; those that have one name share it.
 std::string schema_of(const auto& methods) {
-  std::string text;
+  std::vector<std::pair<std::string, nlohmann::ordered_json>> properties;
   for (const auto& method : methods) {
     for (const frame::Option& option : method.options) {
-      nlohmann::ordered_json property = {
-          {"description", fmt::format("{}: {}.", method.name, option.text.meaning)}};
+      const std::string told = fmt::format("{}: {}.", method.name, option.text.meaning);
+      nlohmann::ordered_json property = {{"description", told}};
       if (const auto* words = std::get_if<frame::Words>(&option.values)) {
         property["type"] = "string";
         for (const frame::Word& word : *words) property["enum"].push_back(word.word);
@@ -189,10 +200,22 @@ std::string schema_of(const auto& methods) {
         property["type"] = "integer";
         property["minimum"] = std::get<frame::Counts>(option.values).least;
       }
-      text +=
-          fmt::format("{}{:14}\"{}\": {}", text.empty() ? "" : ",\n", "", option.text.name, property.dump());
+      const auto same = std::find_if(properties.begin(), properties.end(),
+                                     [&](const auto& other) { return other.first == option.text.name; });
+      if (same == properties.end()) {
+        properties.emplace_back(option.text.name, property);
+        continue;
+      }
+      nlohmann::ordered_json& shared = same->second;
+      EXPECT_EQ(shared["type"], "integer") << option.text.name << " is of two methods, and no count of both";
+      shared["description"] = shared["description"].template get<std::string>() + " " + told;
+      shared["minimum"] =
+          std::min(shared["minimum"].template get<int>(), property["minimum"].template get<int>());
     }
   }
+  std::string text;
+  for (const auto& [name, property] : properties)
+    text += fmt::format("{}{:14}\"{}\": {}", text.empty() ? "" : ",\n", "", name, property.dump());
   return text;
 }
 

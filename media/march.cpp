@@ -1,0 +1,115 @@
+#include "media/march.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "epipolar/space.h"
+
+#include "spirv/media/march_frag.h"
+#include "spirv/media/march_gather_frag.h"
+
+namespace airlight::media {
+namespace {
+
+/// An optical depth of D beyond which the middle of a narrow step does not stand for it.
+constexpr float k_deep = 8.0f;
+
+}  // namespace
+
+March::March(const MarchOptions& options) : options_(options), space_(sizeof(shaders::EpipolarBlock)) {
+  if (options.jitter == MarchJitter::gathered) gather_.emplace(k_march_gather_frag);
+}
+
+const frame::ScreenPass& March::load(const Variant& variant) {
+  if (const auto found = passes_.find(variant); found != passes_.end()) return found->second;
+  const bool by_angle = options_.spacing == MarchSpacing::angle;
+  const auto jitter = static_cast<std::uint32_t>(options_.jitter);
+  return passes_
+      .emplace(variant,
+               frame::ScreenPass(
+                   k_march_frag,
+                   std::array{gpu::Constant(3, variant.phase), gpu::Constant(9, variant.rough),
+                              gpu::Constant(10, variant.layer), gpu::Constant(12, variant.reach),
+                              gpu::Constant(13, variant.light_textured), gpu::Constant(16, variant.plane),
+                              gpu::Constant(17, static_cast<std::uint32_t>(options_.steps)),
+                              gpu::Constant(18, variant.sun), gpu::Constant(19, by_angle),
+                              gpu::Constant(20, jitter)}))
+      .first->second;
+}
+
+void March::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) {
+  assert(!options_.refusal(inputs.view));
+  const scene::View& view = inputs.view;
+  const scene::Light& light = inputs.light();
+  const gpu::Texture& shadow_map = inputs.shadow_map(0.0);
+  const gpu::Texture* light_texture = inputs.light_texture();
+  const bool is_sun = scene::is_sun(light);
+  const std::uint32_t layer = layer_of(view.medium, light, view.camera.eye);
+  const frame::ScreenPass& pass = load({.phase = static_cast<std::uint32_t>(view.medium.phase),
+                                        .layer = layer,
+                                        .reach = reach_of(light),
+                                        .light_textured = light_texture != nullptr,
+                                        .plane = inputs.shadow_map_is_plane(),
+                                        .rough = !is_sun && is_rough(inputs, layer, k_deep),
+                                        .sun = is_sun});
+  if (is_sun || options_.spacing == MarchSpacing::distance) {
+    const scene::Box& box = inputs.scene.box();
+    const double reach = !box.empty() ? scene::reach_from(view.camera.eye, box)
+                         : is_sun     ? 1.0
+                                      : glm::distance(view.camera.eye, light.position);
+    pass.pipeline().set(0, static_cast<float>(reach));
+  }
+  // Of the grid that the block tells of nothing is used.
+  const shaders::EpipolarBlock block =
+      epipolar::epipolar_block(view, light, {}, epipolar::Ranges::full, epipolar::ThetaCells::equal);
+  space_.write(&block, sizeof block);
+  if (gather_ && scattered_.size() != radiance.size())
+    scattered_ = gpu::Texture(radiance.format(), radiance.size());
+  inputs.timer.time("integrate", [&] {
+    space_.bind_uniform(shaders::k_space_block);
+    inputs.surfaces.bind_sampler(shaders::k_surface_unit);
+    shadow_map.bind_sampler(shaders::k_shadow_map_unit);
+    if (light_texture) light_texture->bind_sampler(shaders::k_light_texture_unit);
+    pass.run({gather_ ? scattered_ : radiance});
+    if (!gather_) return;
+    scattered_.bind_sampler(shaders::k_scratch_unit);
+    gather_->run({radiance});
+  });
+}
+
+std::map<std::string, std::int64_t> March::bytes() const {
+  if (!gather_) return {};
+  return {{"scattered", scattered_.bytes()}};
+}
+
+frame::AirlightMethod march_method() {
+  return frame::describe<frame::Airlight, MarchOptions>(
+      "march", "look-ups of the shadow map along each view ray", {},
+      {frame::count_option({.name = "steps",
+                            .meaning = "look-ups a view ray",
+                            .quality = "too few show as bands across shafts",
+                            .cost = "integrate",
+                            .sweep = {"8", "16", "32", "64", "128", "256", "512"}},
+                           frame::Counts{.least = 8, .most = 512}, &MarchOptions::steps),
+       frame::word_option(
+           {.name = "spacing",
+            .meaning = "how a lamp's view rays are cut into steps; a sun's are by distance",
+            .quality = "angle follows the light near the lamp, distance shadows far from it",
+            .cost = "none",
+            .sweep = {"distance", "angle"}},
+           {{"distance", "equal in the distance from the eye"}, {"angle", "equal in the angle at the light"}},
+           &MarchOptions::spacing),
+       frame::word_option(
+           {.name = "jitter",
+            .meaning = "where in its step a look-up lies",
+            .quality = "interleaved turns bands into a pattern of 4 x 4 pixels, gathered softens both",
+            .cost = "gathered takes a pass over the image",
+            .sweep = {"off", "interleaved", "gathered"}},
+           {{"off", "in the middle"},
+            {"interleaved", "elsewhere for each of 4 x 4 pixels"},
+            {"gathered", "so, and then the mean of such pixels of one surface"}},
+           &MarchOptions::jitter)},
+      [](const gpu::Context&, const MarchOptions& options) { return std::make_unique<March>(options); });
+}
+
+}  // namespace airlight::media

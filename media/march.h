@@ -1,0 +1,70 @@
+#pragma once
+
+#include <compare>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "frame/method.h"
+#include "frame/screen_pass.h"
+#include "gpu/buffer.h"
+#include "gpu/texture.h"
+#include "media/lighting.h"
+
+namespace airlight::media {
+
+/// How a lamp's view rays are cut into steps; a sun's are cut by distance.
+enum class MarchSpacing {
+  distance,  ///< equally long in the distance from the eye
+  angle,     ///< equally long in φ, the angle at the light
+};
+
+/// Where in its step a look-up lies.
+enum class MarchJitter {
+  off,          ///< in the middle
+  interleaved,  ///< elsewhere for each pixel of a square of 4 × 4
+  gathered,     ///< so, and a pixel is the mean of such a square of one surface
+};
+
+struct MarchOptions {
+  int steps = 32;
+  MarchSpacing spacing = MarchSpacing::distance;
+  MarchJitter jitter = MarchJitter::off;
+
+  bool needs_shadow_map() const { return true; }
+  /// A phase function whose lobe is too narrow.
+  std::optional<frame::Refusal> refusal(const scene::View& view) const { return narrow_lobe(view.medium); }
+};
+
+/// `march`: airlight by look-ups of the shadow map along each view ray.
+/// Based on: Tóth and Umenhoffer, "Real-time Volumetric Lighting in Participating Media", Eurographics 2009
+/// short papers, section 3. By angle: Kulla and Fajardo, "Importance Sampling Techniques for Path Tracing in
+/// Participating Media", EGSR 2012, section 4.1 (equi-angular sampling). Deviation: the light of a step is
+/// integrated over φ, as shaders/media/march.frag says, where they take its value at a point.
+class March : public frame::Airlight {
+ public:
+  explicit March(const MarchOptions& options);
+
+  /// The options must not refuse the view.
+  void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override;
+  std::map<std::string, std::int64_t> bytes() const override;
+
+ private:
+  /// What the shader is specialised for.
+  struct Variant {
+    std::uint32_t phase, layer, reach;
+    bool light_textured, plane, rough, sun;
+    auto operator<=>(const Variant&) const = default;
+  };
+  const frame::ScreenPass& load(const Variant& variant);
+
+  MarchOptions options_;
+  gpu::Buffer space_;  ///< EpipolarBlock
+  std::map<Variant, frame::ScreenPass> passes_;
+  std::optional<frame::ScreenPass> gather_;
+  gpu::Texture scattered_;  ///< of the size of the image, before it is gathered
+};
+
+frame::AirlightMethod march_method();
+
+}  // namespace airlight::media

@@ -1,0 +1,241 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "scene/light_texture.h"
+#include "support/render.h"
+#include "support/scenes.h"
+#include "unit/reference/fixtures.h"
+
+/// Airlight by look-ups of the shadow map along view rays, against the reference.
+namespace airlight {
+namespace {
+
+using media::MarchJitter;
+using media::MarchOptions;
+using media::MarchSpacing;
+
+constexpr MarchSpacing k_spacings[] = {MarchSpacing::distance, MarchSpacing::angle};
+
+const char* name_of(MarchSpacing spacing) {
+  return spacing == MarchSpacing::distance ? "distance" : "angle";
+}
+
+/// What 512 steps and 2048² texels leave at most.
+struct Curve {
+  const char* scene;
+  double rrmse;
+};
+void PrintTo(const Curve& curve, std::ostream* stream) {
+  *stream << curve.scene;
+}
+
+class MarchIn : public testing::TestWithParam<Curve> {};
+
+TEST_P(MarchIn, ComesToTheReferenceAsStepsGrow) {
+  const scene::Scene& scene = tests::builtin(GetParam().scene);
+  const scene::View view = tests::view_of(scene, {48, 48});
+  const tests::Truth truth = tests::trace(scene.geometry, view);
+  for (const MarchSpacing spacing : k_spacings) {
+    double before = 1e30, error = 0.0;
+    for (const int steps : {8, 32, 128, 512}) {
+      const frame::FrameImages image =
+          tests::render_march(scene.geometry, view, {.steps = steps, .spacing = spacing}, 2048);
+      error = tests::error_of(image, truth).rrmse;
+      RecordProperty(name_of(spacing) + std::to_string(steps), std::to_string(error));
+      // A change of visibility is misplaced by up to half a step.
+      EXPECT_LT(error, 0.6 * before) << name_of(spacing) << " " << steps;
+      before = error;
+    }
+    EXPECT_LT(error, GetParam().rrmse) << name_of(spacing);
+  }
+}
+
+TEST_P(MarchIn, GatheredLookUpsAreBetterThanTheirNumber) {
+  const scene::Scene& scene = tests::builtin(GetParam().scene);
+  const scene::View view = tests::view_of(scene, {128, 128});
+  const tests::Truth truth = tests::trace(scene.geometry, view);
+  const auto error_by = [&](MarchJitter jitter) {
+    return tests::error_of(tests::render_march(scene.geometry, view, {.steps = 8, .jitter = jitter}), truth);
+  };
+  const auto off = error_by(MarchJitter::off), interleaved = error_by(MarchJitter::interleaved);
+  // Pixels that differ in their offset err in all directions where those in the middle of steps err alike.
+  EXPECT_LT(std::abs(interleaved.bias), std::abs(off.bias) + 1e-3);
+  EXPECT_LT(interleaved.rrmse, 1.5 * off.rrmse);
+  const auto gathered = error_by(MarchJitter::gathered);
+  RecordProperty("off", std::to_string(off.rrmse));
+  RecordProperty("interleaved", std::to_string(interleaved.rrmse));
+  RecordProperty("gathered", std::to_string(gathered.rrmse));
+  EXPECT_LT(gathered.rrmse, 0.8 * interleaved.rrmse);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, MarchIn, testing::Values(Curve{"window", 0.02}, Curve{"fence", 0.02}),
+                         [](const auto& test) { return std::string(test.param.scene); });
+
+TEST(March, LightsEmptyFogAsTheReference) {
+  scene::View view = tests::view_of(tests::builtin("empty"), {24, 24});
+  view.medium.sigma_s = {0.1f, 0.3f, 0.05f};
+  view.medium.sigma_a = {0.02f, 0.0f, 0.4f};
+  view.medium.rayleigh_weight = 0.3f;
+  for (const auto& [phase, g] :
+       {std::pair(scene::PhaseFunction::isotropic, 0.0f), std::pair(scene::PhaseFunction::rayleigh, 0.0f),
+        std::pair(scene::PhaseFunction::henyey_greenstein, 0.6f),
+        std::pair(scene::PhaseFunction::henyey_greenstein, -0.97f),
+        std::pair(scene::PhaseFunction::hoffman_preetham, 0.7f)}) {
+    view.medium.phase = phase;
+    view.medium.g = g;
+    const auto truth = reference::Reference({}, view).exact().radiance;
+    for (const MarchSpacing spacing : k_spacings) {
+      for (const int steps : {8, 33, 200}) {
+        const auto image = tests::render_march({}, view, {.steps = steps, .spacing = spacing}).airlight;
+        const auto error = tests::error_of(image, truth);
+        // Narrow steps count with their middle.
+        EXPECT_LT(error.rrmse, 0.012) << name_of(spacing) << " " << steps << " g " << g;
+        EXPECT_LT(std::abs(error.bias), 0.004) << name_of(spacing) << " " << steps << " g " << g;
+      }
+    }
+  }
+}
+
+/// A kind of light and fog, among slats.
+struct Kind {
+  const char* name;
+  glm::dvec3 position{0.3, 0.2, -0.4};
+  glm::dvec3 sun{0.0};              ///< towards it
+  std::optional<double> top = {};   ///< of the fog
+  double inner = 0.0, outer = 0.0;  ///< of a cone, half-angles [rad]
+  double range = 0.0;               ///< [m]
+  bool is_textured = false;
+  float g = 0.0f, sigma = 1.0f;
+};
+void PrintTo(const Kind& kind, std::ostream* stream) {
+  *stream << kind.name;
+}
+
+constexpr Kind k_kinds[] = {
+    {.name = "Lamp"},
+    {.name = "FarLamp", .position = {40, 60, -80}},
+    {.name = "LampBehind", .position = {0.5, 1.5, 9}},
+    {.name = "Spot", .inner = 0.3, .outer = 1.0},
+    {.name = "StepOfASpot", .inner = 0.7, .outer = 0.7},
+    {.name = "Range", .range = 3.5},
+    {.name = "SpotAndRange", .inner = 0.6, .outer = 1.2, .range = 5},
+    {.name = "Texture", .is_textured = true},
+    {.name = "LayerAround", .top = 3.0},
+    {.name = "LayerUnderTheEye", .top = 0.7},
+    {.name = "LayerUnderTheLamp", .top = -0.1},
+    {.name = "Sun", .sun = {0.5, 0.6, -1}},
+    {.name = "SunFromBehind", .sun = {0.3, 0.2, 1}},
+    {.name = "SunOnALayer", .sun = {0.5, 0.6, -1}, .top = 1.5},
+    {.name = "SunOnALayerUnderTheEye", .sun = {0.5, 0.9, -1}, .top = 0.2},
+    {.name = "NarrowLobe", .g = 0.95f},
+    {.name = "HeavyFog", .sigma = 12.0f},
+};
+
+scene::View view_of(const Kind& kind) {
+  scene::View view = reference::tests::clutter_view(40);
+  scene::Light& light = view.lights[0];
+  const float distance = static_cast<float>(glm::length(kind.position));
+  light = glm::length(kind.sun) > 0
+              ? scene::sun("", kind.sun, {2, 3, 5})
+              : scene::point_light("", kind.position, glm::vec3(2, 3, 5) * (1 + distance * distance));
+  if (kind.outer > 0)
+    light.cone = {.axis = glm::normalize(glm::dvec3(0.1, -0.3, 1)), .inner = kind.inner, .outer = kind.outer};
+  if (kind.range > 0) light.range = kind.range;
+  if (kind.is_textured) {
+    std::vector<glm::vec3> texels;
+    for (int i = 0; i < 16 * 8; ++i)
+      texels.emplace_back(1.0f + 0.9f * std::sin(0.7f * static_cast<float>(i)));
+    light.texture = std::make_shared<scene::LightTexture>("waves", glm::ivec2(16, 8), texels);
+  }
+  view.medium.sigma_s = kind.sigma * glm::vec3(0.05f, 0.1f, 0.08f);
+  view.medium.sigma_a = kind.sigma * glm::vec3(0.0f, 0.05f, 0.02f);
+  view.medium.top = kind.top;
+  if (kind.g != 0) view.medium.phase = scene::PhaseFunction::henyey_greenstein;
+  view.medium.g = kind.g;
+  return view;
+}
+
+class MarchBy : public testing::TestWithParam<Kind> {};
+INSTANTIATE_TEST_SUITE_P(Kinds, MarchBy, testing::ValuesIn(k_kinds),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST_P(MarchBy, IsTheReferenceAmongSlats) {
+  static const scene::Geometry slats = reference::tests::clutter(40);
+  const scene::View view = view_of(GetParam());
+  const tests::Truth truth = tests::trace(slats, view);
+  for (const MarchSpacing spacing : k_spacings) {
+    const auto error =
+        tests::error_of(tests::render_march(slats, view, {.steps = 256, .spacing = spacing}, 2048), truth);
+    RecordProperty(name_of(spacing), std::to_string(error.rrmse) + ", bias " + std::to_string(error.bias));
+    // Changes of visibility lie within a step and a texel.
+    EXPECT_LT(error.rrmse, 0.012) << name_of(spacing);
+    EXPECT_LT(std::abs(error.bias), 2e-3) << name_of(spacing);
+  }
+}
+
+TEST_P(MarchBy, TakesAnyStepsAndJitter) {
+  static const scene::Geometry slats = reference::tests::clutter(40);
+  const scene::View view = view_of(GetParam());
+  const tests::Truth truth = tests::trace(slats, view);
+  for (const MarchJitter jitter : {MarchJitter::off, MarchJitter::interleaved, MarchJitter::gathered}) {
+    const auto error = tests::error_of(
+        tests::render_march(slats, view, {.steps = 16, .spacing = MarchSpacing::angle, .jitter = jitter}),
+        truth);
+    // A rough picture of the same. What is gathered is blurred, where a lobe, an edge of a cone, or a layer
+    // changes within four pixels, too.
+    const bool is_gathered = jitter == MarchJitter::gathered;
+    EXPECT_LT(error.rrmse, is_gathered ? 4.0 : 0.15);
+    EXPECT_LT(std::abs(error.bias), is_gathered ? 0.15 : 0.02);
+    RecordProperty("jitter" + std::to_string(static_cast<int>(jitter)),
+                   std::to_string(error.rrmse) + ", bias " + std::to_string(error.bias));
+  }
+}
+
+double mean(const std::vector<glm::vec3>& image) {
+  double sum = 0.0;
+  for (const glm::vec3& value : image) sum += static_cast<double>(value.x + value.y + value.z);
+  return sum / static_cast<double>(image.size());
+}
+
+TEST(March, FindsARoomWithoutLightDark) {
+  scene::Geometry room;
+  tests::add_box(room, {-1, -1, -1}, {1, 1, 1});
+  scene::View view;
+  view.camera.eye = {0.2, 0.1, 0.9};
+  view.camera.target = {0, 0, -1};
+  view.camera.vertical_fov_degrees = 90;
+  view.medium.sigma_s = glm::vec3(0.3f);
+  view.size = {48, 48};
+  for (const scene::Light& light : {scene::point_light("", {0.5, 1.7, -2.5}, glm::vec3(100.0f)),
+                                    scene::point_light("", {30, 50, 20}, glm::vec3(1e9f)),
+                                    scene::sun("", {0.3, 1, -0.2}, glm::vec3(10.0f))}) {
+    view.lights[0] = light;
+    for (const MarchSpacing spacing : k_spacings) {
+      for (const MarchJitter jitter : {MarchJitter::off, MarchJitter::interleaved, MarchJitter::gathered}) {
+        const MarchOptions options{.spacing = spacing, .jitter = jitter};
+        // A point nearer to a wall than the shadow map's texels tell may be lit.
+        EXPECT_LT(mean(tests::render_march(room, view, options).airlight),
+                  1e-4 * mean(tests::render_march({}, view, options).airlight));
+      }
+    }
+  }
+}
+
+TEST(March, RefusesLobesThatStepsCannotFollow) {
+  scene::View view = view_of(k_kinds[0]);
+  view.medium.phase = scene::PhaseFunction::henyey_greenstein;
+  view.medium.g = -0.996f;
+  ASSERT_TRUE(MarchOptions{}.refusal(view));
+  EXPECT_NE(MarchOptions{}.refusal(view)->problem.find("g = -0.996"), std::string::npos);
+  view.medium.g = -0.995f;
+  EXPECT_FALSE(MarchOptions{}.refusal(view));
+}
+
+}  // namespace
+}  // namespace airlight
