@@ -140,6 +140,7 @@ void Context::set_up(DebugOutput debug_output) {
   limits_ = {.max_storage_block_bytes = storage_block,
              .max_texel_buffer_texels = gl_integer(GL_MAX_TEXTURE_BUFFER_SIZE),
              .max_texture_size = gl_integer(GL_MAX_TEXTURE_SIZE),
+             .max_volume_size = gl_integer(GL_MAX_3D_TEXTURE_SIZE),
              .max_viewport = std::min(viewport[0], viewport[1]),
              .max_array_layers = gl_integer(GL_MAX_ARRAY_TEXTURE_LAYERS),
              .max_work_group_invocations = gl_integer(GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS),

@@ -13,6 +13,7 @@ struct Limits {
   std::int64_t max_storage_block_bytes;  ///< size of one shader storage buffer
   std::int64_t max_texel_buffer_texels;  ///< of a buffer seen through a sampler
   int max_texture_size;                  ///< of a 2D texture's side [texels]
+  int max_volume_size;                   ///< of a 3D texture's side [texels]
   int max_viewport;                      ///< of an image's side [pixels]
   int max_array_layers;
   int max_work_group_invocations;

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "epipolar/space.h"
+
 namespace airlight::media {
 namespace {
 
@@ -35,6 +37,10 @@ bool is_rough(const frame::FrameInputs& inputs, std::uint32_t layer, float deep)
     reach = std::min(reach, scene::reach_from(view.camera.eye, inputs.scene.box()));
   const glm::vec3 depth = (view.medium.sigma_s + view.medium.sigma_a) * static_cast<float>(reach);
   return std::abs(view.medium.g) > k_wide_lobe || std::max({depth.x, depth.y, depth.z}) > deep;
+}
+
+shaders::EpipolarBlock gridless_space(const scene::View& view, const scene::Light& light) {
+  return epipolar::epipolar_block(view, light, {}, epipolar::Ranges::full, epipolar::ThetaCells::equal);
 }
 
 std::optional<frame::Refusal> narrow_lobe(const scene::Medium& medium) {

@@ -22,6 +22,9 @@ std::uint32_t reach_of(const scene::Light& light);
 /// lamp that the layer does not hold, no more than the scene either.
 bool is_rough(const frame::FrameInputs& inputs, std::uint32_t layer, float deep);
 
+/// Epipolar space of a view and a light, for methods without a grid in it.
+shaders::EpipolarBlock gridless_space(const scene::View& view, const scene::Light& light);
+
 /// Of a phase function whose lobe is too narrow for steps that follow the integrand.
 std::optional<frame::Refusal> narrow_lobe(const scene::Medium& medium);
 

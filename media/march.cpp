@@ -1,9 +1,7 @@
 #include "media/march.h"
 
-#include <algorithm>
+#include <bit>
 #include <cassert>
-
-#include "epipolar/space.h"
 
 #include "spirv/media/march_frag.h"
 #include "spirv/media/march_gather_frag.h"
@@ -25,15 +23,13 @@ const frame::ScreenPass& March::load(const Variant& variant) {
   const bool by_angle = options_.spacing == MarchSpacing::angle;
   const auto jitter = static_cast<std::uint32_t>(options_.jitter);
   return passes_
-      .emplace(variant,
-               frame::ScreenPass(
-                   k_march_frag,
-                   std::array{gpu::Constant(3, variant.phase), gpu::Constant(9, variant.rough),
-                              gpu::Constant(10, variant.layer), gpu::Constant(12, variant.reach),
-                              gpu::Constant(13, variant.light_textured), gpu::Constant(16, variant.plane),
-                              gpu::Constant(17, static_cast<std::uint32_t>(options_.steps)),
-                              gpu::Constant(18, variant.sun), gpu::Constant(19, by_angle),
-                              gpu::Constant(20, jitter)}))
+      .emplace(variant, frame::ScreenPass(
+                            k_march_frag,
+                            std::array{gpu::Constant(3, variant.phase), gpu::Constant(9, variant.rough),
+                                       gpu::Constant(10, variant.layer), gpu::Constant(12, variant.reach),
+                                       gpu::Constant(13, variant.light_textured),
+                                       gpu::Constant(16, variant.plane), gpu::Constant(18, variant.sun),
+                                       gpu::Constant(19, by_angle), gpu::Constant(20, jitter)}))
       .first->second;
 }
 
@@ -52,16 +48,13 @@ void March::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radi
                                         .plane = inputs.shadow_map_is_plane(),
                                         .rough = !is_sun && is_rough(inputs, layer, k_deep),
                                         .sun = is_sun});
-  if (is_sun || options_.spacing == MarchSpacing::distance) {
-    const scene::Box& box = inputs.scene.box();
-    const double reach = !box.empty() ? scene::reach_from(view.camera.eye, box)
-                         : is_sun     ? 1.0
-                                      : glm::distance(view.camera.eye, light.position);
-    pass.pipeline().set(0, static_cast<float>(reach));
-  }
-  // Of the grid that the block tells of nothing is used.
-  const shaders::EpipolarBlock block =
-      epipolar::epipolar_block(view, light, {}, epipolar::Ranges::full, epipolar::ThetaCells::equal);
+  const scene::Box& box = inputs.scene.box();
+  const double reach = !box.empty() ? scene::reach_from(view.camera.eye, box)
+                       : is_sun     ? 1.0
+                                    : glm::distance(view.camera.eye, light.position);
+  pass.pipeline().set(0, glm::uvec2(static_cast<std::uint32_t>(options_.steps),
+                                    std::bit_cast<std::uint32_t>(static_cast<float>(reach))));
+  const shaders::EpipolarBlock block = gridless_space(view, light);
   space_.write(&block, sizeof block);
   if (gather_ && scattered_.size() != radiance.size())
     scattered_ = gpu::Texture(radiance.format(), radiance.size());

@@ -4,6 +4,7 @@
 #include "scene/scene.h"
 
 namespace airlight::shaders {
+#include "media/froxels.glsl"
 #include "media/layer.glsl"
 #include "media/march_steps.glsl"
 #include "media/medium.glsl"

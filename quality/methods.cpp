@@ -6,6 +6,7 @@
 
 #include "epipolar/surface_lookup.h"
 #include "frame/none.h"
+#include "media/froxel.h"
 #include "media/march.h"
 #include "media/vsv.h"
 #include "scene/components.h"
@@ -23,8 +24,9 @@ using scene::split;
 
 std::span<const VolumeMethod> volume_methods() {
   static const std::vector<VolumeMethod> methods = {
-      frame::no_airlight_method(), media::vsv_method(),        media::march_method(),
-      reference_method(),          reference_sampled_method(), reference_march_method(),
+      frame::no_airlight_method(), media::vsv_method(), media::march_method(),
+      media::froxel_method(),      reference_method(),  reference_sampled_method(),
+      reference_march_method(),
   };
   return methods;
 }

@@ -50,4 +50,7 @@ CONST uint k_tree_planes_storage = 2u;
 CONST uint k_tree_links_storage = 3u;
 CONST uint k_subtrees_storage = 4u;
 
+// Image units, of which a compute shader has 8
+CONST uint k_froxels_image = 0u;  // media/froxel_scatter.comp
+
 #endif

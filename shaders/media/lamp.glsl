@@ -34,6 +34,23 @@ vec3 integrate_short(LayerRay ray, float from, float to) {
   return part * colour_at(ray, 0.5 * (from + to));
 }
 
+// How many parts a stretch of φ is cut into so that two nodes serve each where extinction and phase function are not rough; a texture's
+// columns meet at its poles.
+float parts_of(float width) {
+  float longest = 0.25;
+  if (k_light_textured != 0u) longest = min(0.0625, half_texture_row());
+  return ceil(max(width, 0.0) / longest);
+}
+
+// A lit part of the ray, in so many equal ones.
+vec3 integrate_parts(LayerRay ray, float from, float to) {
+  float count = parts_of(to - from);
+  float width = (to - from) / max(count, 1.0);
+  vec3 sum = vec3(0.0);
+  for (float i = 0.0; i < count; ++i) sum += integrate_short(ray, from + i * width, from + (i + 1.0) * width);
+  return sum;
+}
+
 // A lit part of the ray, in steps that follow the integrand, and where the light is not alike in all directions, or ends, no longer than
 // equal cells of half a turn would be, nor than half a texel of latitude.
 vec3 integrate_lit(LayerRay ray, float from, float to, float cells) {

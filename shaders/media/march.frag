@@ -9,26 +9,25 @@
 // lit or not. The light of a lamp's step is the integrand in φ at its middle times its length in φ, in which 1/r² has gone; steps
 // that are wide in φ are cut, and with k_rough, where the integrand may change within any, all are. A sun's step has a closed form.
 layout(constant_id = 9) const uint k_rough = 0;
-layout(constant_id = 17) const uint k_steps = 32;
 layout(constant_id = 18) const uint k_sun = 0;
 layout(constant_id = 19) const uint k_by_angle = 0;  // a lamp's steps are equally long in φ, not in t
 layout(constant_id = 20) const uint k_jitter = 0;    // media/march.h
 const uint k_off = 0u;
 const uint k_gathered = 2u;
 layout(binding = k_surface_unit) uniform sampler2D surface_image;
-layout(location = 0) uniform float scene_reach;  // from the eye [m]; not used by angle
+// The number of steps, and how far the scene reaches from the eye, a float's bits [m].
+layout(location = 0) uniform uvec2 march;
 layout(location = 0) out vec4 airlight;
 
-// [rad]; steps of a march of 32 or more by angle are narrower than the first.
+// [rad]; steps of a march of 32 or more by angle are narrower.
 const float k_wide = 0.1;
-const float k_part_of_wide = 0.25;
 
 vec3 sun_airlight(MediumRay ray, float offset) {
   SunRay sun = sun_ray(medium, light, ray.direction, ray.distance);
-  MarchSteps steps = march_steps(sun.entry, sun.exit, scene_reach, float(k_steps));
+  MarchSteps steps = march_steps(sun.entry, sun.exit, uintBitsToFloat(march.y), float(march.x));
   vec3 integral = vec3(0.0);
   float from = sun.entry;
-  for (uint i = 0u; i < k_steps; ++i) {
+  for (uint i = 0u; i < march.x; ++i) {
     float to = place_of_step(steps, float(i + 1u));
     if (is_lit(place_of_step(steps, float(i) + offset) * ray.direction)) integral += integrate_sun_run(medium, sun, from, to);
     from = to;
@@ -38,16 +37,10 @@ vec3 sun_airlight(MediumRay ray, float offset) {
 
 // A lit step.
 vec3 integrate_step(LayerRay ray, float from, float to) {
-  if (k_rough != 0u) return integrate_lit(ray, from, to, float(k_steps));
+  if (k_rough != 0u) return integrate_lit(ray, from, to, float(march.x));
   float middle = 0.5 * (from + to);
   if (to - from < k_wide) return (to - from) * integrand_at(ray, middle) * colour_at(ray, middle);
-  float part = k_part_of_wide;
-  if (k_light_textured != 0u) part = min(0.25 * part, half_texture_row());  // its columns meet at the poles
-  float count = ceil((to - from) / part);
-  float width = (to - from) / count;
-  vec3 sum = vec3(0.0);
-  for (float i = 0.0; i < count; ++i) sum += integrate_short(ray, from + i * width, from + (i + 1.0) * width);
-  return sum;
+  return integrate_parts(ray, from, to);
 }
 
 vec3 lamp_airlight(MediumRay ray, float offset) {
@@ -57,19 +50,19 @@ vec3 lamp_airlight(MediumRay ray, float offset) {
   if (k_by_angle == 0u) {
     float from = part.from == ray.phi_start ? ray.entry : layer_distance(space, view, part.from);
     float to = part.to == ray.phi_end ? ray.distance : layer_distance(space, view, part.to);
-    steps = march_steps(from, to, scene_reach, float(k_steps));
+    steps = march_steps(from, to, uintBitsToFloat(march.y), float(march.x));
   }
   vec3 sum = vec3(0.0);
   float from = part.from;
-  uint count = part.from < part.to ? k_steps : 0u;
+  uint count = part.from < part.to ? march.x : 0u;
   for (uint i = 0u; i < count; ++i) {
     float to = part.to;
     float at;
     if (k_by_angle != 0u) {
-      to = mix(part.from, part.to, float(i + 1u) / float(k_steps));
+      to = mix(part.from, part.to, float(i + 1u) / float(march.x));
       at = layer_distance(space, view, mix(from, to, offset));
     } else {
-      if (i + 1u < k_steps) to = clamp(phi_at(space, ray.angle, place_of_step(steps, float(i + 1u))), from, part.to);
+      if (i + 1u < march.x) to = clamp(phi_at(space, ray.angle, place_of_step(steps, float(i + 1u))), from, part.to);
       at = place_of_step(steps, float(i) + offset);
     }
     if (is_lit(at * ray.direction)) sum += integrate_step(view, from, to);

@@ -36,8 +36,9 @@ FUNCTION SunRay sun_ray(IN(MediumBlock) medium, IN(LightBlock) light, IN(vec3) d
 
 // (1 − e^{−x}) / x for x ≥ 0, to 1e-6.
 FUNCTION float mean_decay(float x) {
-  if (x > 0.3f) return (1.0f - exp(-min(x, k_deepest))) / x;
-  return 1.0f - x * (0.5f - x * (0.166666667f - x * (0.0416666667f - x * (0.00833333333f - x * 0.00138888889f))));
+  float by_exp = (1.0f - exp(-min(x, k_deepest))) / max(x, 0.3f);
+  float by_series = 1.0f - x * (0.5f - x * (0.166666667f - x * (0.0416666667f - x * (0.00833333333f - x * 0.00138888889f))));
+  return x > 0.3f ? by_exp : by_series;
 }
 
 // ∫ e^{−σ_t path(t)} dt between two places of the ray, one channel a component [m].
@@ -46,9 +47,8 @@ FUNCTION vec3 integrate_sun_run(IN(MediumBlock) medium, IN(SunRay) ray, float fr
   vec3 change = medium.sigma_t * (ray.slope * (to - from));
   vec3 least = max(at_from + min(change, vec3(0.0f)), vec3(0.0f));
   vec3 decay = exp(-min(least, vec3(k_deepest)));
-  return (to - from) * vec3(least.x < k_deepest ? mean_decay(abs(change.x)) * decay.x : 0.0f,
-                            least.y < k_deepest ? mean_decay(abs(change.y)) * decay.y : 0.0f,
-                            least.z < k_deepest ? mean_decay(abs(change.z)) * decay.z : 0.0f);
+  vec3 is_left = vec3(least.x < k_deepest ? 1.0f : 0.0f, least.y < k_deepest ? 1.0f : 0.0f, least.z < k_deepest ? 1.0f : 0.0f);
+  return (to - from) * is_left * decay * vec3(mean_decay(abs(change.x)), mean_decay(abs(change.y)), mean_decay(abs(change.z)));
 }
 
 // What turns that into radiance: σ_s E p(α).

@@ -195,6 +195,7 @@ case ${1:-} in
       for n in 8 32 128 512; do rivals+=,march:spacing=$spacing:steps=$n; done
     done
     for n in 8 32 128; do rivals+=,march:jitter=interleaved:steps=$n,march:jitter=gathered:steps=$n; done
+    rivals+=,froxel,froxel:samples=4,froxel:samples=16,froxel:tile=4,froxel:tile=4:slices=128,froxel:tile=2:slices=256
     for size in 256x256 1024x1024; do
       for scene in window fence sponza maple sun_sponza; do
         compare "$scene" --size $size --surface none -o "$out/rivals_${size}_$scene" --volume "$rivals" --quiet

@@ -316,7 +316,7 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{{"--sun", "1,0,0", "--irradiance", "1", "--fog-top", "2"}, "leave out --fog-top"},
         Misuse{{"--fog-top", "nan"}, "--fog-top"}, Misuse{{"--fog-top", "1e19"}, "--fog-top"},
         Misuse{{"--phase", "mie"}, "unknown"}, Misuse{{"--rayleigh-weight", "0.5"}, "hoffman-preetham"},
-        Misuse{{"--volume", "froxel"}, "reference-march"},
+        Misuse{{"--volume", "moments"}, "march, froxel, reference"},
         Misuse{{"--surface", "metric-tree"}, "shadow-map, vsv, psv"},
         Misuse{{"--volume", "vsv,none"}, "one method"}, Misuse{{"--volume", ""}, "--volume"},
         Misuse{{"--volume", "vsv:integral=sum"}, "riemann"},

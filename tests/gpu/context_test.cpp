@@ -40,6 +40,7 @@ TEST(Context, KnowsItsDeviceAndAllowsWhatOpenGl45Must) {
   EXPECT_GE(context.limits().max_work_groups.y, 65535u);
   EXPECT_GE(context.limits().max_work_groups.z, 65535u);
   EXPECT_GT(context.limits().max_viewport, 0);
+  EXPECT_GE(context.limits().max_volume_size, 2048);  // OpenGL 4.5 guarantees that
 }
 
 TEST(Context, AGlMistakeBecomesAnErrorOnce) {

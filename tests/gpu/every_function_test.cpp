@@ -180,6 +180,9 @@ constexpr Function k_functions[] = {
     {"march_steps", 2, 0, 0},
     {"place_of_step", 1, 6 * k_single, 0},  // beyond the scene by an inverse
     {"interleaved_offset", 1, 0, 0, Scale::one, 20},
+    {"depth_of_slice", 1, 2e-6, 2e-6, Scale::length},  // e^x − 1
+    {"slice_of_depth", 1, 2e-6, 1e-4},                 // log: 2⁻²¹ near 1; over ln 4 of 64
+    {"place_in_froxel", 3, 0, 1e-5, Scale::one, 20},   // of up to 60
 };
 
 std::vector<Inputs> random_inputs(int count) {

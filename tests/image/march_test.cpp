@@ -1,13 +1,11 @@
-#include <algorithm>
 #include <cmath>
-#include <memory>
 #include <ostream>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "scene/light_texture.h"
+#include "support/kinds_of_light.h"
 #include "support/render.h"
 #include "support/scenes.h"
 #include "unit/reference/fixtures.h"
@@ -102,72 +100,13 @@ TEST(March, LightsEmptyFogAsTheReference) {
   }
 }
 
-/// A kind of light and fog, among slats.
-struct Kind {
-  const char* name;
-  glm::dvec3 position{0.3, 0.2, -0.4};
-  glm::dvec3 sun{0.0};              ///< towards it
-  std::optional<double> top = {};   ///< of the fog
-  double inner = 0.0, outer = 0.0;  ///< of a cone, half-angles [rad]
-  double range = 0.0;               ///< [m]
-  bool is_textured = false;
-  float g = 0.0f, sigma = 1.0f;
-};
-void PrintTo(const Kind& kind, std::ostream* stream) {
-  *stream << kind.name;
-}
-
-constexpr Kind k_kinds[] = {
-    {.name = "Lamp"},
-    {.name = "FarLamp", .position = {40, 60, -80}},
-    {.name = "LampBehind", .position = {0.5, 1.5, 9}},
-    {.name = "Spot", .inner = 0.3, .outer = 1.0},
-    {.name = "StepOfASpot", .inner = 0.7, .outer = 0.7},
-    {.name = "Range", .range = 3.5},
-    {.name = "SpotAndRange", .inner = 0.6, .outer = 1.2, .range = 5},
-    {.name = "Texture", .is_textured = true},
-    {.name = "LayerAround", .top = 3.0},
-    {.name = "LayerUnderTheEye", .top = 0.7},
-    {.name = "LayerUnderTheLamp", .top = -0.1},
-    {.name = "Sun", .sun = {0.5, 0.6, -1}},
-    {.name = "SunFromBehind", .sun = {0.3, 0.2, 1}},
-    {.name = "SunOnALayer", .sun = {0.5, 0.6, -1}, .top = 1.5},
-    {.name = "SunOnALayerUnderTheEye", .sun = {0.5, 0.9, -1}, .top = 0.2},
-    {.name = "NarrowLobe", .g = 0.95f},
-    {.name = "HeavyFog", .sigma = 12.0f},
-};
-
-scene::View view_of(const Kind& kind) {
-  scene::View view = reference::tests::clutter_view(40);
-  scene::Light& light = view.lights[0];
-  const float distance = static_cast<float>(glm::length(kind.position));
-  light = glm::length(kind.sun) > 0
-              ? scene::sun("", kind.sun, {2, 3, 5})
-              : scene::point_light("", kind.position, glm::vec3(2, 3, 5) * (1 + distance * distance));
-  if (kind.outer > 0)
-    light.cone = {.axis = glm::normalize(glm::dvec3(0.1, -0.3, 1)), .inner = kind.inner, .outer = kind.outer};
-  if (kind.range > 0) light.range = kind.range;
-  if (kind.is_textured) {
-    std::vector<glm::vec3> texels;
-    for (int i = 0; i < 16 * 8; ++i)
-      texels.emplace_back(1.0f + 0.9f * std::sin(0.7f * static_cast<float>(i)));
-    light.texture = std::make_shared<scene::LightTexture>("waves", glm::ivec2(16, 8), texels);
-  }
-  view.medium.sigma_s = kind.sigma * glm::vec3(0.05f, 0.1f, 0.08f);
-  view.medium.sigma_a = kind.sigma * glm::vec3(0.0f, 0.05f, 0.02f);
-  view.medium.top = kind.top;
-  if (kind.g != 0) view.medium.phase = scene::PhaseFunction::henyey_greenstein;
-  view.medium.g = kind.g;
-  return view;
-}
-
-class MarchBy : public testing::TestWithParam<Kind> {};
-INSTANTIATE_TEST_SUITE_P(Kinds, MarchBy, testing::ValuesIn(k_kinds),
+class MarchBy : public testing::TestWithParam<tests::KindOfLight> {};
+INSTANTIATE_TEST_SUITE_P(Kinds, MarchBy, testing::ValuesIn(tests::k_kinds_of_light),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST_P(MarchBy, IsTheReferenceAmongSlats) {
   static const scene::Geometry slats = reference::tests::clutter(40);
-  const scene::View view = view_of(GetParam());
+  const scene::View view = tests::clutter_view(GetParam(), 40);
   const tests::Truth truth = tests::trace(slats, view);
   for (const MarchSpacing spacing : k_spacings) {
     const auto error =
@@ -181,7 +120,7 @@ TEST_P(MarchBy, IsTheReferenceAmongSlats) {
 
 TEST_P(MarchBy, TakesAnyStepsAndJitter) {
   static const scene::Geometry slats = reference::tests::clutter(40);
-  const scene::View view = view_of(GetParam());
+  const scene::View view = tests::clutter_view(GetParam(), 40);
   const tests::Truth truth = tests::trace(slats, view);
   for (const MarchJitter jitter : {MarchJitter::off, MarchJitter::interleaved, MarchJitter::gathered}) {
     const auto error = tests::error_of(
@@ -228,7 +167,7 @@ TEST(March, FindsARoomWithoutLightDark) {
 }
 
 TEST(March, RefusesLobesThatStepsCannotFollow) {
-  scene::View view = view_of(k_kinds[0]);
+  scene::View view = tests::clutter_view(tests::k_kinds_of_light[0], 40);
   view.medium.phase = scene::PhaseFunction::henyey_greenstein;
   view.medium.g = -0.996f;
   ASSERT_TRUE(MarchOptions{}.refusal(view));

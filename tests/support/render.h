@@ -10,6 +10,7 @@
 
 #include "frame/frame.h"
 #include "frame/none.h"
+#include "media/froxel.h"
 #include "media/march.h"
 #include "media/vsv.h"
 #include "quality/metrics.h"
@@ -46,6 +47,12 @@ inline frame::FrameImages render_march(const scene::Geometry& geometry, const sc
                                        const media::MarchOptions& options, int shadow_map = 1024) {
   media::March march(options);
   return render_airlight(geometry, view, march, shadow_map);
+}
+
+inline frame::FrameImages render_froxel(const scene::Geometry& geometry, const scene::View& view,
+                                        const media::FroxelOptions& options, int shadow_map = 1024) {
+  media::Froxel froxel(options);
+  return render_airlight(geometry, view, froxel, shadow_map);
 }
 
 inline frame::FrameImages render_vsv(const scene::Geometry& geometry, const scene::View& view,

@@ -6,6 +6,7 @@
 #include "frame/shadow_plane.glsl"
 #include "frame/camera.glsl"
 #include "epipolar/conservative.glsl"
+#include "media/froxels.glsl"
 #include "media/march_steps.glsl"
 #include "media/medium.glsl"
 #include "media/reach.glsl"
@@ -13,7 +14,7 @@
 #include "media/sun.glsl"
 #include "media/table_place.glsl"
 
-CONST uint k_outputs = 187u;
+CONST uint k_outputs = 192u;
 
 struct Inputs {
   vec4 a;  // axis, D
@@ -332,6 +333,9 @@ FUNCTION void call_every_function(IN(Inputs) inputs) {
   put(steps.near_count);
   put(place_of_step(steps, 12.0f * float(alpha)));
   put(interleaved_offset(ivec2(int(100.0f * float(alpha)), int(100.0f * float(phi)))));
+  put(depth_of_slice(20.0f * float(alpha), 64.0f, t));
+  put(slice_of_depth(0.3f * float(alpha) * t, 64.0f, t));
+  put(place_in_froxel(uint(20.0f * float(alpha))));
 }
 
 #endif

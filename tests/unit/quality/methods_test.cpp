@@ -97,6 +97,10 @@ TEST(MethodSpec, MistakesAreNamedWithWhatIsValid) {
   EXPECT_THAT(complaint("march:steps=7"), testing::AllOf(HasSubstr("march:steps=7, steps"), HasSubstr("8")));
   EXPECT_THAT(complaint("march:steps=513"), HasSubstr("512"));
   EXPECT_THAT(complaint("march:spacing=phi"), testing::AllOf(HasSubstr("distance"), HasSubstr("angle")));
+  EXPECT_THAT(complaint("froxel:tile=0"), HasSubstr("between 1 and 64"));
+  EXPECT_THAT(complaint("froxel:slices=7"),
+              testing::AllOf(HasSubstr("slices=7"), HasSubstr("between 8 and 512")));
+  EXPECT_THAT(complaint("froxel:samples=many"), HasSubstr("samples"));
   EXPECT_THAT(complaint("march:jitter=on"), testing::AllOf(HasSubstr("interleaved"), HasSubstr("gathered")));
   EXPECT_THAT(complaint("vsv,vsv"), HasSubstr("twice"));
 }

@@ -1,0 +1,138 @@
+#include "media/froxel.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "scene/error.h"
+
+#include "spirv/media/froxel_read_frag.h"
+#include "spirv/media/froxel_scatter_comp.h"
+#include "spirv/media/froxel_sum_comp.h"
+
+namespace airlight::media {
+namespace {
+
+/// Optical depth at which the last slice ends: what is left is e^−7, a thousandth.
+constexpr double k_deepest_slice = 7.0;
+
+scene::Error too_many(const FroxelOptions& options, glm::ivec3 count, const std::string& limit) {
+  return scene::Error(scene::ExitCode::driver,
+                      fmt::format("froxel:tile={}:slices={}", options.tile, options.slices),
+                      fmt::format("{} x {} x {} froxels are more than {}", count.x, count.y, count.z, limit),
+                      "use larger tiles or fewer slices");
+}
+
+}  // namespace
+
+glm::ivec3 froxel_count(const gpu::Limits& limits, const FroxelOptions& options, glm::ivec2 image_size) {
+  const glm::ivec3 count((image_size + options.tile - 1) / options.tile, options.slices);
+  if (std::max({count.x, count.y, count.z}) > limits.max_volume_size)
+    throw too_many(options, count,
+                   fmt::format("this driver's {} a side (GL_MAX_3D_TEXTURE_SIZE)", limits.max_volume_size));
+  return count;
+}
+
+double farthest_slice(const scene::View& view, const scene::Light& light, const scene::Box& box) {
+  const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
+  double depth = 0.0;
+  if (!box.empty()) {
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::dvec3 at((corner & 1) != 0 ? box.upper.x : box.lower.x,
+                          (corner & 2) != 0 ? box.upper.y : box.lower.y,
+                          (corner & 4) != 0 ? box.upper.z : box.lower.z);
+      depth = std::max(depth, glm::dot(at - camera.eye, camera.forward));
+    }
+  }
+  if (depth <= 0.0) depth = scene::is_sun(light) ? 1.0 : 2.0 * glm::distance(camera.eye, light.position);
+  const glm::vec3 sigma_t = view.medium.sigma_s + view.medium.sigma_a;
+  const double thinnest = static_cast<double>(std::min({sigma_t.x, sigma_t.y, sigma_t.z}));
+  return thinnest * depth > k_deepest_slice ? k_deepest_slice / thinnest : depth;
+}
+
+Froxel::Froxel(const FroxelOptions& options) : options_(options), space_(sizeof(shaders::EpipolarBlock)) {}
+
+const Froxel::Programs& Froxel::load(const Variant& variant) {
+  if (const auto found = programs_.find(variant); found != programs_.end()) return found->second;
+  const std::vector<gpu::Constant> constants = {{3, variant.phase},
+                                                {10, variant.layer},
+                                                {12, variant.reach},
+                                                {13, variant.light_textured},
+                                                {16, variant.plane},
+                                                {18, variant.sun},
+                                                {21, static_cast<std::uint32_t>(options_.tile)}};
+  return programs_
+      .emplace(variant, Programs{gpu::Pipeline::compute(k_froxel_scatter_comp, constants),
+                                 gpu::Pipeline::compute(k_froxel_sum_comp, constants),
+                                 frame::ScreenPass(k_froxel_read_frag, constants)})
+      .first->second;
+}
+
+void Froxel::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) {
+  assert(!options_.refusal(inputs.view));
+  const scene::View& view = inputs.view;
+  const scene::Light& light = inputs.light();
+  const glm::ivec3 count = froxel_count(inputs.context.limits(), options_, view.size);
+  if (froxels_.extent() != count) {
+    try {
+      froxels_ = gpu::Texture::volume(gpu::Format::rgba32f, count);
+    } catch (const scene::Error&) {
+      throw too_many(options_, count, "this driver has memory for");
+    }
+    froxels_.sample_linearly();
+  }
+  const gpu::Texture& shadow_map = inputs.shadow_map(0.0);
+  const gpu::Texture* light_texture = inputs.light_texture();
+  const Programs& programs = load({.phase = static_cast<std::uint32_t>(view.medium.phase),
+                                   .layer = layer_of(view.medium, light, view.camera.eye),
+                                   .reach = reach_of(light),
+                                   .light_textured = light_texture != nullptr,
+                                   .plane = inputs.shadow_map_is_plane(),
+                                   .sun = scene::is_sun(light)});
+  const auto farthest = static_cast<float>(farthest_slice(view, light, inputs.scene.box()));
+  const glm::uvec3 counts(std::bit_cast<std::uint32_t>(farthest), options_.slices, options_.samples);
+  for (const gpu::Pipeline* program : {&programs.scatter, &programs.sum, &programs.read.pipeline()})
+    program->set(0, counts);
+  const shaders::EpipolarBlock block = gridless_space(view, light);
+  space_.write(&block, sizeof block);
+  space_.bind_uniform(shaders::k_space_block);
+  shadow_map.bind_sampler(shaders::k_shadow_map_unit);
+  if (light_texture) light_texture->bind_sampler(shaders::k_light_texture_unit);
+  froxels_.bind_image(shaders::k_froxels_image);
+  inputs.timer.time("populate", [&] { programs.scatter.dispatch(glm::uvec3(count)); });
+  inputs.timer.time("integrate", [&] {
+    programs.sum.dispatch({count.x, count.y, 1});
+    inputs.surfaces.bind_sampler(shaders::k_surface_unit);
+    froxels_.bind_sampler(shaders::k_scratch_unit);
+    programs.read.run({radiance});
+  });
+}
+
+frame::AirlightMethod froxel_method() {
+  return frame::describe<frame::Airlight, FroxelOptions>(
+      "froxel", "a volume of the view frustum, lit from the shadow map", {},
+      {frame::count_option({.name = "tile",
+                            .meaning = "side of a froxel in the image, in pixels",
+                            .quality = "large ones blur shafts and leak at silhouettes",
+                            .cost = "memory, populate and integrate by its square",
+                            .sweep = {"2", "4", "8", "16"}},
+                           frame::Counts{.most = 64}, &FroxelOptions::tile),
+       frame::count_option({.name = "slices",
+                            .meaning = "froxels in depth, thicker away from the eye",
+                            .quality = "too few show as bands across shafts",
+                            .cost = "memory, populate, integrate",
+                            .sweep = {"32", "64", "128", "256"}},
+                           frame::Counts{.least = 8, .most = 512}, &FroxelOptions::slices),
+       frame::count_option({.name = "samples",
+                            .meaning = "look-ups of the shadow map a froxel, the first in its middle",
+                            .quality = "one leaves stairs at edges of shafts",
+                            .cost = "populate",
+                            .sweep = {"1", "4", "16"}},
+                           frame::Counts{.most = 64}, &FroxelOptions::samples)},
+      [](const gpu::Context&, const FroxelOptions& options) { return std::make_unique<Froxel>(options); });
+}
+
+}  // namespace airlight::media
