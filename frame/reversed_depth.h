@@ -9,8 +9,7 @@ namespace airlight::frame {
 /// (near_depth), which cuts off only what lies beside or behind the apex; with depth clamping instead of it,
 /// NVIDIA's driver drops a triangle that has a corner beside the apex, in the plane of no depth. Row 0 is at
 /// the top.
-inline const gpu::FixedState k_reversed_depth = {.depth_test = gpu::Compare::greater,
-                                                 .upper_left_origin = true,
-                                                 .zero_to_one_depth = true};
+inline const gpu::FixedState k_reversed_depth = {
+    .depth_test = gpu::Compare::greater, .upper_left_origin = true, .zero_to_one_depth = true};
 
 }  // namespace airlight::frame

@@ -101,7 +101,8 @@ frame::AirlightMethod march_method() {
            {{"off", "in the middle"},
             {"interleaved", "elsewhere for each of 4 x 4 pixels"},
             {"gathered", "so, and then the mean of such pixels of one surface"}},
-           &MarchOptions::jitter)},
+           &MarchOptions::jitter),
+       frame::where_option(&MarchOptions::where)},
       [](const gpu::Context&, const MarchOptions& options) { return std::make_unique<March>(options); });
 }
 

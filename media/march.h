@@ -30,6 +30,7 @@ struct MarchOptions {
   int steps = 32;
   MarchSpacing spacing = MarchSpacing::distance;
   MarchJitter jitter = MarchJitter::off;
+  frame::Where where = frame::Where::pixel;
 
   bool needs_shadow_map() const { return true; }
   /// A phase function whose lobe is too narrow.
@@ -47,6 +48,7 @@ class March : public frame::Airlight {
 
   /// The options must not refuse the view.
   void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override;
+  frame::Where where() const override { return options_.where; }
   std::map<std::string, std::int64_t> bytes() const override;
 
  private:

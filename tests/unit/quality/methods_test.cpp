@@ -211,10 +211,15 @@ std::string schema_of(const auto& methods) {
         continue;
       }
       nlohmann::ordered_json& shared = same->second;
-      EXPECT_EQ(shared["type"], "integer") << option.text.name << " is of two methods, and no count of both";
+      EXPECT_EQ(shared["type"], property["type"])
+          << option.text.name << " is a count of one method, of another not";
       shared["description"] = shared["description"].template get<std::string>() + " " + told;
-      shared["minimum"] =
-          std::min(shared["minimum"].template get<int>(), property["minimum"].template get<int>());
+      if (property.contains("minimum"))
+        shared["minimum"] =
+            std::min(shared["minimum"].template get<int>(), property["minimum"].template get<int>());
+      for (const auto& word : property.value("enum", nlohmann::ordered_json::array()))
+        if (std::find(shared["enum"].begin(), shared["enum"].end(), word) == shared["enum"].end())
+          shared["enum"].push_back(word);
     }
   }
   std::string text;
