@@ -16,19 +16,19 @@ glm::ivec2 coarse_size(glm::ivec2 size, Where where) {
   return {std::max(static_cast<int>(width), 1), height};
 }
 
-CoarseImage::CoarseImage(const scene::View& view, Where where)
-    : view_(view), camera_block_(sizeof(shaders::CameraBlock)), upsample_(k_upsample_frag) {
-  view_.size = coarse_size(view.size, where);
-  surfaces_ = gpu::Texture(gpu::Format::rgba32f, view_.size);
-  airlight_ = gpu::Texture(gpu::Format::rgba32f, view_.size);
-}
+CoarseImage::CoarseImage(Where where)
+    : where_(where), camera_block_(sizeof(shaders::CameraBlock)), upsample_(k_upsample_frag) {}
 
 void CoarseImage::begin(const scene::View& view, const GBuffer& gbuffer, const SceneBuffers& scene,
                         float near) {
-  const glm::ivec2 size = view_.size;
   view_ = view;
-  view_.size = size;
-  const shaders::CameraBlock block = camera_block(scene::camera_frame(view_.camera, size), size, near);
+  view_.size = coarse_size(view.size, where_);
+  if (surfaces_.size() != view_.size) {
+    surfaces_ = gpu::Texture(gpu::Format::rgba32f, view_.size);
+    airlight_ = gpu::Texture(gpu::Format::rgba32f, view_.size);
+  }
+  const shaders::CameraBlock block =
+      camera_block(scene::camera_frame(view_.camera, view_.size), view_.size, near);
   camera_block_.write(&block, sizeof block);
   bind_camera();
   gbuffer.find_surfaces(scene, surfaces_);

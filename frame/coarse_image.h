@@ -28,15 +28,16 @@ enum class Where {
 /// the guide, as engines do it.
 class CoarseImage {
  public:
-  /// @param view whose airlight it is; @param where not `pixel`
-  CoarseImage(const scene::View& view, Where where);
+  /// @param where not `pixel`
+  explicit CoarseImage(Where where);
 
-  /// The same view in fewer pixels. Its image may reach a part of a pixel farther to the sides.
+  /// The view of the last `begin` in fewer pixels. Its image may reach a part of a pixel farther to the
+  /// sides.
   const scene::View& view() const { return view_; }
   const gpu::Texture& surfaces() const { return surfaces_; }
   const gpu::Texture& airlight() const { return airlight_; }
 
-  /// Finds the surfaces, and binds the block of the camera.
+  /// Finds the surfaces of a view, and binds the block of its camera.
   /// @param near see CameraBlock
   void begin(const scene::View& view, const GBuffer& gbuffer, const SceneBuffers& scene, float near);
   void bind_camera() const;
@@ -47,6 +48,7 @@ class CoarseImage {
   std::int64_t bytes() const { return surfaces_.bytes() + airlight_.bytes(); }
 
  private:
+  Where where_;
   scene::View view_;
   gpu::Texture surfaces_, airlight_;
   gpu::Buffer camera_block_;

@@ -153,14 +153,12 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
     gbuffer_->draw(scene, camera, scene.triangles_at(camera.eye, distance));
   });
 
-  const bool is_coarse = airlight.where() != Where::pixel;
-  if (is_coarse) {
-    const glm::ivec2 size = coarse_size(view.size, airlight.where());
-    if (!coarse_image_ || coarse_image_->view().size != size) coarse_image_.emplace(view, airlight.where());
+  const Where where = airlight.where();
+  coarse_image_ = where == Where::pixel ? nullptr : &coarse_images_.try_emplace(where, where).first->second;
+  if (coarse_image_) {
     timer.time("surfaces", [&] { coarse_image_->begin(view, *gbuffer_, scene, near); });
     camera_block_.bind_uniform(shaders::k_camera_block);
   }
-  uses_coarse_image_ = is_coarse;
 
   // What each light adds.
   lights_.clear();
@@ -182,31 +180,25 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
     write_block(light_block_,
                 light_block(light, camera.eye, resources_.light_near(), resources_.shadow_map_size(), plane),
                 shaders::k_light_block);
-    const FrameInputs inputs{.context = context_,
-                             .view = view,
-                             .light_index = i,
-                             .scene = scene,
-                             .triangles = gbuffer_->triangles(),
-                             .surfaces = gbuffer_->surfaces(),
-                             .resources = resources_,
-                             .timer = timer};
-    surface_shadow.query(inputs, visibility_[i]);  // times its own stages, …
-    // … and so does airlight.
-    if (is_coarse) {
+    const auto inputs = [&](const scene::View& seen, const gpu::Texture& surfaces) {
+      return FrameInputs{.context = context_,
+                         .view = seen,
+                         .light_index = i,
+                         .scene = scene,
+                         .triangles = gbuffer_->triangles(),
+                         .surfaces = surfaces,
+                         .resources = resources_,
+                         .timer = timer};
+    };
+    const FrameInputs of_pixels = inputs(view, gbuffer_->surfaces());
+    surface_shadow.query(of_pixels, visibility_[i]);  // times its own stages, and so does airlight
+    if (coarse_image_) {
       coarse_image_->bind_camera();
-      airlight.integrate({.context = context_,
-                          .view = coarse_image_->view(),
-                          .light_index = i,
-                          .scene = scene,
-                          .triangles = gbuffer_->triangles(),
-                          .surfaces = coarse_image_->surfaces(),
-                          .resources = resources_,
-                          .timer = timer},
-                         coarse_image_->airlight());
+      airlight.integrate(inputs(coarse_image_->view(), coarse_image_->surfaces()), coarse_image_->airlight());
       camera_block_.bind_uniform(shaders::k_camera_block);
       timer.time("upsample", [&] { coarse_image_->upsample(gbuffer_->surfaces(), airlight_of(i)); });
     } else {
-      airlight.integrate(inputs, airlight_of(i));
+      airlight.integrate(of_pixels, airlight_of(i));
     }
     timer.time("composite", [&] { composite(i, !is_empty); });
     is_empty = false;
@@ -241,7 +233,7 @@ void Frame::composite(std::size_t light, bool adds) {
 
 std::map<std::string, std::int64_t> Frame::bytes() const {
   std::map<std::string, std::int64_t> bytes = resources_.bytes();
-  if (uses_coarse_image_) bytes["coarse_image"] = coarse_image_->bytes();
+  if (coarse_image_) bytes["coarse_image"] = coarse_image_->bytes();
   return bytes;
 }
 
@@ -272,6 +264,8 @@ FrameImages Frame::take() {
   // What frees the most goes first.
   images.distance = read_distance(gbuffer_->surfaces());
   gbuffer_.reset();
+  coarse_image_ = nullptr;
+  coarse_images_.clear();
   images.lights = lights_;
   images.is_skipped = is_skipped_;
   for (gpu::Texture& texture : airlight_of_light_) {

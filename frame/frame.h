@@ -79,8 +79,8 @@ class Frame {
       composite_;  ///< by: the light is textured, it adds to others
 
   std::optional<GBuffer> gbuffer_;
-  std::optional<CoarseImage> coarse_image_;
-  bool uses_coarse_image_ = false;  ///< the last frame did
+  std::map<Where, CoarseImage> coarse_images_;  ///< each stays, with its program, when methods take turns
+  CoarseImage* coarse_image_ = nullptr;         ///< that of the last frame, if any
   std::vector<std::string> lights_;
   std::vector<bool> is_skipped_;
   std::vector<gpu::Texture> visibility_;         ///< one a light

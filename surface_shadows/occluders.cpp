@@ -27,14 +27,13 @@ void Occluders::load(const frame::FrameInputs& inputs) {
 
   const scene::Components& components = inputs.components();
   const std::vector<scene::Box> boxes = scene::boxes_of(components, inputs.geometry());
-  std::vector<std::uint32_t> number(components.count);
+  std::vector<std::uint32_t> number(components.count, 0);
   boxes_.clear();
   for (std::size_t i = 0; i < components.count; ++i) {
+    if (!components.has_two_sides[i]) continue;
+    boxes_.push_back(boxes[i]);
     number[i] = static_cast<std::uint32_t>(boxes_.size());
-    if (components.has_two_sides[i]) boxes_.push_back(boxes[i]);
   }
-  for (std::size_t i = 0; i < components.count; ++i)
-    if (!components.has_two_sides[i]) number[i] = static_cast<std::uint32_t>(boxes_.size());
   std::vector<std::uint32_t> parts;
   parts.reserve(count_);
   for (const std::uint32_t triangle : inputs.scene.order())
@@ -54,12 +53,11 @@ void Occluders::cull_parts(const frame::FrameInputs& inputs) const {
     return glm::any(glm::lessThan(point, glm::dvec3(box.lower) - margin)) ||
            glm::any(glm::greaterThan(point, glm::dvec3(box.upper) + margin));
   };
-  std::vector<std::uint32_t> is_culled;
+  std::vector<std::uint32_t> is_culled = {0};
   is_culled.reserve(boxes_.size() + 1);
   for (const scene::Box& box : boxes_)
     is_culled.push_back(
         is_outside(box, eye) && (scene::is_sun(light) || is_outside(box, light.position)) ? 1 : 0);
-  is_culled.push_back(0);
   is_culled_.write(is_culled.data(), is_culled_.bytes());
 }
 

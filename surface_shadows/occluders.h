@@ -59,8 +59,8 @@ class Occluders {
 
   // Without culling they hold nothing.
   std::vector<scene::Box> boxes_;  ///< of the parts that have two sides
-  gpu::Buffer parts_;              ///< of each triangle, the number of one of them; else how many there are
-  gpu::Buffer is_culled_;          ///< of each part, and at last 0
+  gpu::Buffer parts_;              ///< of each triangle, which of them it is of, from 1; 0 for none
+  gpu::Buffer is_culled_;          ///< of each part; 0 of none
   gpu::TexelView part_texels_, is_culled_texels_;
 };
 
