@@ -19,12 +19,6 @@ using scene::ExitCode;
 
 constexpr std::size_t k_most_of_all = 40;  ///< settings of each method that --all takes
 
-std::string join(const std::vector<std::string>& words) {
-  std::string list;
-  for (const std::string& word : words) list += fmt::format("{}{}", list.empty() ? "" : ",", word);
-  return list;
-}
-
 /// The axes of the file and of the options.
 quality::Axes axes_of(const Options& options) {
   quality::Axes axes;
@@ -91,9 +85,12 @@ void sweep(const Options& options) {
   const std::vector<quality::CommonOption> common = common_method_options(options);
   std::vector<quality::VolumeChoice> volumes;
   if (axes.volumes)
-    volumes = quality::parse_volumes(join(quality::expand_braces("--volume", *axes.volumes)), common);
+    volumes = quality::parse_volumes(
+        fmt::format("{}", fmt::join(quality::expand_braces("--volume", *axes.volumes), ",")), common);
   std::vector<quality::SurfaceChoice> surfaces = quality::parse_surfaces(
-      join(quality::expand_braces("--surface", axes.surfaces.value_or("shadow-map"))), common);
+      fmt::format("{}",
+                  fmt::join(quality::expand_braces("--surface", axes.surfaces.value_or("shadow-map")), ",")),
+      common);
   std::vector<int> shadow_maps;
   for (const std::string& word : quality::expand_braces("--shadow-map", axes.shadow_maps.value_or("2048")))
     shadow_maps.push_back(scene::parse_count("--shadow-map", word));

@@ -29,14 +29,14 @@ std::uint32_t reach_of(const scene::Light& light) {
   return (light.cone ? shaders::k_reach_of_cone : 0) | (light.range ? shaders::k_reach_of_range : 0);
 }
 
-bool is_rough(const frame::FrameInputs& inputs, std::uint32_t layer, float deep) {
-  constexpr float k_wide_lobe = 0.8f;
+bool is_rough(const frame::FrameInputs& inputs, std::uint32_t layer) {
+  constexpr float k_wide_lobe = 0.8f, k_deep = 8.0f;
   const scene::View& view = inputs.view;
   double reach = glm::distance(inputs.light().position, view.camera.eye);
   if (layer == shaders::k_layer_entered && !inputs.scene.box().empty())
     reach = std::min(reach, scene::reach_from(view.camera.eye, inputs.scene.box()));
   const glm::vec3 depth = (view.medium.sigma_s + view.medium.sigma_a) * static_cast<float>(reach);
-  return std::abs(view.medium.g) > k_wide_lobe || std::max({depth.x, depth.y, depth.z}) > deep;
+  return std::abs(view.medium.g) > k_wide_lobe || std::max({depth.x, depth.y, depth.z}) > k_deep;
 }
 
 shaders::EpipolarBlock gridless_space(const scene::View& view, const scene::Light& light) {

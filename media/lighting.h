@@ -18,9 +18,9 @@ std::uint32_t layer_of(const scene::Medium& medium, const scene::Light& light, c
 std::uint32_t reach_of(const scene::Light& light);
 
 /// Whether the integrand of a lamp's airlight changes much within a step of φ: a lobe of the phase function
-/// is narrow, or what steps span is deeper than so much [1]. That is, in all, not much more than D; from a
+/// is narrow, or light reaches not farther than a few steps. Those span, in all, not much more than D; from a
 /// lamp that the layer does not hold, no more than the scene either.
-bool is_rough(const frame::FrameInputs& inputs, std::uint32_t layer, float deep);
+bool is_rough(const frame::FrameInputs& inputs, std::uint32_t layer);
 
 /// Epipolar space of a view and a light, for methods without a grid in it.
 shaders::EpipolarBlock gridless_space(const scene::View& view, const scene::Light& light);

@@ -7,13 +7,6 @@
 #include "spirv/media/march_gather_frag.h"
 
 namespace airlight::media {
-namespace {
-
-/// An optical depth of D beyond which the middle of a narrow step does not stand for it.
-constexpr float k_deep = 8.0f;
-
-}  // namespace
-
 March::March(const MarchOptions& options) : options_(options), space_(sizeof(shaders::EpipolarBlock)) {
   if (options.jitter == MarchJitter::gathered) gather_.emplace(k_march_gather_frag);
 }
@@ -46,7 +39,7 @@ void March::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radi
                                         .reach = reach_of(light),
                                         .light_textured = light_texture != nullptr,
                                         .plane = inputs.shadow_map_is_plane(),
-                                        .rough = !is_sun && is_rough(inputs, layer, k_deep),
+                                        .rough = !is_sun && is_rough(inputs, layer),
                                         .sun = is_sun});
   const scene::Box& box = inputs.scene.box();
   const double reach = !box.empty() ? scene::reach_from(view.camera.eye, box)

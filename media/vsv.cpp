@@ -49,9 +49,6 @@ const char* beyond_tables(const scene::View& view, const scene::Light& light) {
   return nullptr;
 }
 
-/// An optical depth of D beyond which light reaches not farther than a few cells of φ.
-constexpr float k_deep = 8.0f;
-
 shaders::Angle alpha_max(const shaders::EpipolarBlock& space, const epipolar::Resolution& resolution) {
   return shaders::alpha_of_cell(space, shaders::Cell(static_cast<float>(resolution.alpha)));
 }
@@ -153,7 +150,7 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
 
   // Where the grid's rows lie, and what the shaders are specialised for.
   const std::uint32_t layer = layer_of(inputs.view.medium, inputs.light(), inputs.view.camera.eye);
-  const bool rough = !is_sun && is_rough(inputs, layer, k_deep);
+  const bool rough = !is_sun && is_rough(inputs, layer);
   const shaders::EpipolarBlock space = volume_.find_ranges(inputs, !(rough && has_table));
   const glm::vec3 sigma_t = inputs.view.medium.sigma_s + inputs.view.medium.sigma_a;
   const bool is_grey = sigma_t.x == sigma_t.y && sigma_t.y == sigma_t.z;

@@ -104,12 +104,6 @@ FrontLevel level_of(double error, const std::vector<SweptRun>& runs) {
   return level;
 }
 
-Json interval_json(const MedianInterval& interval) {
-  return {{"median", number_json(interval.median)},
-          {"low", number_json(interval.low)},
-          {"high", number_json(interval.high)}};
-}
-
 Json over_views_json(const SweptRun::OverViews& over) {
   return {{"error", number_json(over.error)}, {"ratio", interval_json(over.ratio)}};
 }

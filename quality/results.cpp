@@ -106,6 +106,12 @@ Json number_json(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
+Json interval_json(const MedianInterval& interval) {
+  return {{"median", number_json(interval.median)},
+          {"low", number_json(interval.low)},
+          {"high", number_json(interval.high)}};
+}
+
 Json device_json(const gpu::Device& device, unsigned cores) {
   return {{"renderer", device.renderer}, {"version", device.version}, {"cores", cores}};
 }

@@ -3,12 +3,15 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "quality/results.h"
+#include "quality/statistics.h"
 
 /// What of results.json other files have too.
 namespace airlight::quality {
 
 /// A finite number; null where it is none, as against a dark reference.
 nlohmann::ordered_json number_json(double value);
+
+nlohmann::ordered_json interval_json(const MedianInterval& interval);
 
 nlohmann::ordered_json device_json(const gpu::Device& device, unsigned cores);
 

@@ -53,12 +53,6 @@ double ratio_of(std::span<const double> times, std::span<const double> baseline,
   return time / of_baseline;
 }
 
-Json interval_json(const MedianInterval& interval) {
-  return {{"median", number_json(interval.median)},
-          {"low", number_json(interval.low)},
-          {"high", number_json(interval.high)}};
-}
-
 Json shadow_map_json(const std::optional<int>& side) {
   return side ? Json(*side) : Json(nullptr);
 }

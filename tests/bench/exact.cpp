@@ -11,8 +11,6 @@
 // have to give the same image, but for culling, whose pixels are judged.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <exception>
 #include <string>
 #include <vector>
 
@@ -25,6 +23,7 @@
 #include "gpu/context.h"
 #include "quality/metrics.h"
 #include "quality/traced.h"
+#include "report.h"
 #include "scene/builtin.h"
 #include "scene/import.h"
 #include "support/random.h"
@@ -184,7 +183,7 @@ scene::Geometry load(const std::string& name) {
   return scene::import_scene(name).geometry;
 }
 
-void run(std::vector<std::string> words) {
+void run(const std::vector<std::string>& words) {
   int size = 1024;
   double scale = 1.0, offset = 0.0;
   bool prints_factors = false;
@@ -228,11 +227,5 @@ void run(std::vector<std::string> words) {
 }  // namespace
 
 int main(int count, char** words) {
-  try {
-    run({words + 1, words + count});
-    return EXIT_SUCCESS;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "airlight_exact: {}\n", error.what());
-    return EXIT_FAILURE;
-  }
+  return bench::run_and_report("airlight_exact", run, count, words);
 }

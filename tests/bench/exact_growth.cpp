@@ -11,8 +11,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
-#include <exception>
 #include <functional>
 #include <map>
 #include <numbers>
@@ -28,7 +26,9 @@
 #include "frame/none.h"
 #include "frame/point_reader.h"
 #include "gpu/context.h"
+#include "quality/statistics.h"
 #include "reference/parallel.h"
+#include "report.h"
 #include "scene/builtin.h"
 #include "support/scenes.h"
 #include "surface_shadows/brute.h"
@@ -49,8 +49,7 @@ double milliseconds(const std::function<void()>& work) {
 double median_ms(const std::function<void()>& work) {
   std::vector<double> times;
   for (int i = 0; i < k_repeats; ++i) times.push_back(milliseconds(work));
-  std::sort(times.begin(), times.end());
-  return times[k_repeats / 2];
+  return quality::median(times);
 }
 
 /// Asks whether points see the light of whatever lies between, in packets of eight neighbours.
@@ -201,10 +200,7 @@ std::map<std::string, double> stages_of(gpu::Context& context, frame::Frame& fra
     for (const auto& [stage, ms] : timer.milliseconds()) times[stage].push_back(ms);
   }
   std::map<std::string, double> medians;
-  for (auto& [stage, of_stage] : times) {
-    std::sort(of_stage.begin(), of_stage.end());
-    medians[stage] = of_stage[of_stage.size() / 2];
-  }
+  for (const auto& [stage, of_stage] : times) medians[stage] = quality::median(of_stage);
   return medians;
 }
 
@@ -273,11 +269,5 @@ void run(const std::vector<std::string>& words) {
 }  // namespace
 
 int main(int count, char** words) {
-  try {
-    run({words + 1, words + count});
-    return EXIT_SUCCESS;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "airlight_exact_growth: {}\n", error.what());
-    return EXIT_FAILURE;
-  }
+  return bench::run_and_report("airlight_exact_growth", run, count, words);
 }

@@ -37,10 +37,7 @@ TEST_P(FroxelIn, ComesToTheReferenceAsFroxelsShrink) {
 }
 
 TEST(Froxel, LightsEmptyFogAsTheReference) {
-  scene::View view = tests::view_of(tests::builtin("empty"), {50, 35});  // tiles over the image's sides
-  view.medium.sigma_s = {0.1f, 0.3f, 0.05f};
-  view.medium.sigma_a = {0.02f, 0.0f, 0.4f};
-  view.medium.rayleigh_weight = 0.3f;
+  scene::View view = tests::view_of_coloured_fog({50, 35});  // tiles over the image's sides
   for (const auto& [phase, g] :
        {std::pair(scene::PhaseFunction::isotropic, 0.0f), std::pair(scene::PhaseFunction::rayleigh, 0.0f),
         std::pair(scene::PhaseFunction::henyey_greenstein, 0.6f),
@@ -83,12 +80,7 @@ TEST(Froxel, FindsARoomWithoutLightDark) {
   scene::Geometry room;
   tests::add_box(room, {-1, -1, -1}, {1, 1, 1});
   tests::add_box(room, {-2, -2, -2}, {2, 2, 2});
-  scene::View view;
-  view.camera.eye = {0.2, 0.1, 0.9};
-  view.camera.target = {0, 0, -1};
-  view.camera.vertical_fov_degrees = 90;
-  view.medium.sigma_s = glm::vec3(0.3f);
-  view.size = {48, 48};
+  scene::View view = tests::view_in_a_room();
   for (const scene::Light& light : {scene::point_light("", {0.5, 2.7, -3.5}, glm::vec3(100.0f)),
                                     scene::sun("", {0.3, 1, -0.2}, glm::vec3(10.0f))}) {
     view.lights[0] = light;

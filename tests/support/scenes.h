@@ -54,6 +54,26 @@ inline scene::View view_of_level_plane(glm::dvec3 light) {
   return view;
 }
 
+/// From within the box from −1 to 1, of fog.
+inline scene::View view_in_a_room() {
+  scene::View view;
+  view.camera.eye = {0.2, 0.1, 0.9};
+  view.camera.target = {0, 0, -1};
+  view.camera.vertical_fov_degrees = 90;
+  view.medium.sigma_s = glm::vec3(0.3f);
+  view.size = {48, 48};
+  return view;
+}
+
+/// Of the scene `empty`, in fog that scatters and absorbs each channel otherwise.
+inline scene::View view_of_coloured_fog(glm::ivec2 size) {
+  scene::View view = view_of(builtin("empty"), size);
+  view.medium.sigma_s = {0.1f, 0.3f, 0.05f};
+  view.medium.sigma_a = {0.02f, 0.0f, 0.4f};
+  view.medium.rayleigh_weight = 0.3f;
+  return view;
+}
+
 /// Adds the faces of a box.
 inline void add_box(scene::Geometry& geometry, glm::vec3 lower, glm::vec3 upper) {
   const glm::vec3 size = upper - lower;
