@@ -301,7 +301,10 @@ double nodes_a_pixel(const scene::Geometry& geometry, const scene::View& view, c
 }
 
 TEST(Psv, VisitsFewerNodesByItsWedges) {
-  const Case& given = cases()[3];
+  // The order in which invocations insert triangles is chance, and so is a tree: here wedges spare nearly a
+  // half of the nodes, and no tree in which they spare less than a third was seen.
+  const Case& given =
+      *std::find_if(cases().begin(), cases().end(), [](const Case& each) { return each.name == "soup sun"; });
   const double usual = nodes_a_pixel(given.geometry, given.view, {});
   EXPECT_GT(usual, 4.0);
   EXPECT_LT(1.5 * usual, nodes_a_pixel(given.geometry, given.view, {.wedge = Wedge::off}));
