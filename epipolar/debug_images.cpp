@@ -42,6 +42,25 @@ frame::DebugImage grid_image(const Grid& grid, const char* name, const char* cap
   return image;
 }
 
+/// What a tree is made over.
+frame::DebugImage first_occluders(const Grid& grid) {
+  const auto& [alpha, theta, phi] = grid.resolution();
+  const int columns = divide_up(phi, k_longest_side), rows = divide_up(theta, k_longest_side);
+  frame::DebugImage image{
+      "first_occluders",
+      "where shadow begins on each light ray, in the range of α: a row for each θ, φ to the right",
+      {divide_up(phi, columns), divide_up(theta, rows)},
+      {}};
+  const std::vector<std::uint32_t> first = grid.first_shadowed().read<std::uint32_t>();
+  for (int j = 0; j < theta; j += rows)
+    for (int k = 0; k < phi; k += columns)
+      image.values.push_back(
+          static_cast<float>(first[static_cast<std::size_t>(j) * static_cast<std::size_t>(phi) +
+                                   static_cast<std::size_t>(k)]) /
+          static_cast<float>(alpha));
+  return image;
+}
+
 frame::DebugImage shadowed_samples(const Grid& grid, const frame::FrameInputs& inputs) {
   const frame::ScreenPass pass(k_shadowed_samples_frag, resolution_constants(grid.resolution()));
   const gpu::Texture fractions(gpu::Format::r32f, inputs.view.size);
@@ -55,6 +74,7 @@ frame::DebugImage shadowed_samples(const Grid& grid, const frame::FrameInputs& i
 
 std::vector<frame::DebugImage> debug_images(ShadowVolume& volume, const frame::FrameInputs& inputs) {
   const Grid& grid = volume.grid();
+  if (grid.bits().bytes() == 0) return {first_occluders(grid)};
   frame::DebugImage after =
       grid_image(grid, "grid_after_scan",
                  "voxels in shadow on each view ray of the grid: a row for each θ, α to the right");

@@ -58,17 +58,19 @@ std::array<gpu::Constant, 3> resolution_constants(const Resolution& resolution) 
           gpu::Constant(2, static_cast<std::uint32_t>(resolution.phi))};
 }
 
-Grid::Grid(const gpu::Limits& limits, const Resolution& resolution) : resolution_(resolution) {
+Grid::Grid(const gpu::Limits& limits, const Resolution& resolution, bool has_bits) : resolution_(resolution) {
   validate(resolution);
   const auto& [alpha, theta, phi] = resolution;
   const std::string name = fmt::format("the {} × {} × {} grid", alpha, theta, phi);
-  gpu::require_texels(limits, std::int64_t{alpha} * theta * phi / 128, name, k_remedy);
+  if (has_bits) {
+    gpu::require_texels(limits, std::int64_t{alpha} * theta * phi / 128, name, k_remedy);
+    windows_ = cut(resolution, limits);
+    bits_ = gpu::Buffer(plane_bytes(resolution) * theta);
+    texels_ = {limits, bits_, gpu::Format::rgba32ui, name};
+  }
   const std::int64_t light_rays = std::int64_t{theta} * phi;
   gpu::require_storage_block(limits, 4 * light_rays, "the light rays of " + name, k_remedy);
-  windows_ = cut(resolution, limits);
-  bits_ = gpu::Buffer(plane_bytes(resolution) * theta);
   first_shadowed_ = gpu::Buffer(4 * light_rays);
-  texels_ = {limits, bits_, gpu::Format::rgba32ui, name};
   first_shadowed_texels_ = {limits, first_shadowed_, gpu::Format::rgba32ui, name};
   block_ = gpu::Buffer(sizeof(shaders::EpipolarBlock));
   constexpr auto k_float = static_cast<std::int64_t>(sizeof(float));
@@ -84,7 +86,7 @@ void Grid::bind() const {
   phi_range_.bind_storage(shaders::k_phi_range_storage);
   first_shadowed_.bind_storage(shaders::k_first_shadowed_storage);
   plane_texels_.bind_sampler(shaders::k_planes_unit);
-  texels_.bind_sampler(shaders::k_grid_unit);
+  if (bits_.bytes() > 0) texels_.bind_sampler(shaders::k_grid_unit);
   first_shadowed_texels_.bind_sampler(shaders::k_first_shadowed_unit);
 }
 

@@ -40,8 +40,9 @@ struct Window {
 /// small: 128 MiB on llvmpipe. `limits` need not be all that the driver allows.
 class Grid {
  public:
+  /// @param has_bits else they are of size 0, and what depends on them is not to be called
   /// @throws scene::Error (driver) when the driver cannot hold the grid, naming its limit.
-  Grid(const gpu::Limits& limits, const Resolution& resolution);
+  Grid(const gpu::Limits& limits, const Resolution& resolution, bool has_bits = true);
 
   const Resolution& resolution() const { return resolution_; }
   const gpu::Buffer& bits() const { return bits_; }

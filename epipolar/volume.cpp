@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "scene/error.h"
 
 #include "spirv/epipolar/phi_range_comp.h"
@@ -38,7 +40,15 @@ double reach_of_light_rays(const VolumeOptions& options) {
 }  // namespace
 
 Scan VolumeOptions::used_scan() const {
-  return scan.value_or(populate == Populate::screen_space ? Scan::column : Scan::fused);
+  return scan.value_or(query == Query::tree                 ? Scan::none
+                       : populate == Populate::screen_space ? Scan::column
+                                                            : Scan::fused);
+}
+
+Resolution VolumeOptions::used_resolution() const {
+  Resolution used = resolution;
+  if (query == Query::tree) used.alpha = k_tree_alpha;
+  return used;
 }
 
 void VolumeOptions::validate() const {
@@ -47,6 +57,23 @@ void VolumeOptions::validate() const {
     throw scene::Error(scene::ExitCode::usage, "scan=fused",
                        "the screen-space voxelization sets bits, and this scan reads none",
                        "use column or multi-pass");
+  }
+  if ((used_scan() == Scan::none) != (query == Query::tree)) {
+    throw scene::Error(scene::ExitCode::usage, "scan",
+                       query == Query::tree ? "query=tree asks no bits that a scan would make"
+                                            : "only query=tree goes without one",
+                       "leave it out");
+  }
+  if (query == Query::bits) return;
+  if (populate == Populate::screen_space) {
+    throw scene::Error(scene::ExitCode::usage, "populate=screen-space",
+                       "it sets bits, and query=tree is made from the first occluder of each light ray",
+                       "use shadow-map or conservative, or query=bits");
+  }
+  if (resolution.phi > k_most_tree_phi) {
+    throw scene::Error(scene::ExitCode::usage, fmt::format("phi={}", resolution.phi),
+                       fmt::format("query=tree takes {} at most", k_most_tree_phi),
+                       "ask for fewer, or use query=bits");
   }
 }
 
@@ -82,7 +109,8 @@ std::vector<frame::Option> volume_options() {
            .sweep = {"fused", "column", "multi-pass"}},
           {{"fused", "one pass that only writes; default but for screen-space"},
            {"column", "one pass over set bits"},
-           {"multi-pass", "the paper's"}},
+           {"multi-pass", "the paper's"},
+           {"none", "of query=tree"}},
           [](const VolumeOptions& volume) { return volume.used_scan(); },
           [](VolumeOptions& volume, Scan scan) { volume.scan = scan; }),
       frame::word_option<VolumeOptions, Ranges>(
@@ -100,7 +128,7 @@ std::vector<frame::Option> volume_options() {
            &VolumeOptions::resolution, {frame::count_option({.name = "alpha",
                                        .meaning = "cells of the grid along the view angle",
                                        .quality = "too few show as jagged shadow edges",
-                                       .cost = "memory, scan",
+                                       .cost = "memory, scan; query=tree has 65535",
                                        .sweep = {"64", "128", "256", "512"},
                                        .is_common = true},
                                                             any, &Resolution::alpha),
@@ -119,6 +147,12 @@ std::vector<frame::Option> volume_options() {
                                         .is_common = true},
                                                             whole_texels, &Resolution::phi)}))
     options.push_back(std::move(count));
+  // A tree has its own count of α.
+  const auto alpha = options.end() - 3;
+  alpha->get = [get = alpha->get](const void* volume) -> frame::OptionValue {
+    const auto& of_volume = *static_cast<const VolumeOptions*>(volume);
+    return of_volume.query == Query::tree ? of_volume.used_resolution().alpha : get(volume);
+  };
   options.push_back(frame::word_option<VolumeOptions, ThetaCells>(
       {.name = "theta-cells",
        .meaning = "half-planes of the grid",
@@ -130,21 +164,32 @@ std::vector<frame::Option> volume_options() {
   return options;
 }
 
+frame::Option query_option() {
+  return frame::word_option(
+      {.name = "query",
+       .meaning = "what a view ray is answered from",
+       .quality = "a tree knows each pixel's own alpha, bits that of their row",
+       .cost = "a tree saves the scan and the grid's memory, and takes some nodes for each change",
+       .sweep = {"bits", "tree"},
+       .is_common = false},
+      {{"bits", "the voxels of its row"}, {"tree", "a min-max tree over light rays"}}, &VolumeOptions::query);
+}
+
 ShadowVolume::ShadowVolume(const gpu::Limits& limits, const VolumeOptions& options)
     : options_(options),
-      grid_(limits, options.resolution),
-      planes_(gpu::Pipeline::compute(k_planes_comp, resolution_constants(options.resolution))),
-      phi_range_(gpu::Pipeline::compute(k_phi_range_comp, resolution_constants(options.resolution))),
-      plane_cells_(gpu::Pipeline::compute(k_plane_cells_comp, resolution_constants(options.resolution))),
-      plane_range_(gpu::Pipeline::compute(k_plane_range_comp, resolution_constants(options.resolution))),
-      scatter_(gpu::Pipeline::compute(k_scatter_comp, resolution_constants(options.resolution))) {
+      grid_(limits, options.used_resolution(), options.query == Query::bits),
+      planes_(gpu::Pipeline::compute(k_planes_comp, resolution_constants(grid_.resolution()))),
+      phi_range_(gpu::Pipeline::compute(k_phi_range_comp, resolution_constants(grid_.resolution()))),
+      plane_cells_(gpu::Pipeline::compute(k_plane_cells_comp, resolution_constants(grid_.resolution()))),
+      plane_range_(gpu::Pipeline::compute(k_plane_range_comp, resolution_constants(grid_.resolution()))),
+      scatter_(gpu::Pipeline::compute(k_scatter_comp, resolution_constants(grid_.resolution()))) {
   options.validate();
   switch (options.populate) {
     case Populate::shadow_map:
       populate_shadow_map_.emplace();
       break;
     case Populate::conservative:
-      populate_conservative_.emplace(options.resolution);
+      populate_conservative_.emplace(grid_.resolution());
       break;
     case Populate::screen_space:
       populate_screen_space_.emplace(limits, grid_);
@@ -152,13 +197,16 @@ ShadowVolume::ShadowVolume(const gpu::Limits& limits, const VolumeOptions& optio
   }
   switch (options.used_scan()) {
     case Scan::fused:
-      fused_scan_.emplace(options.resolution);
+      fused_scan_.emplace(grid_.resolution());
       break;
     case Scan::column:
-      or_scan_.emplace(options.resolution);
+      or_scan_.emplace(grid_.resolution());
       break;
     case Scan::multi_pass:
       mip_scan_.emplace(limits, grid_);
+      break;
+    case Scan::none:
+      tree_.emplace(limits, grid_.resolution());
       break;
   }
 }
@@ -184,11 +232,11 @@ ShadowVolume::Source ShadowVolume::source_of(const frame::FrameInputs& inputs,
 
 shaders::EpipolarBlock ShadowVolume::find_ranges(const frame::FrameInputs& inputs, bool own_ranges) {
   shaders::EpipolarBlock block =
-      epipolar_block(inputs.view, inputs.light(), options_.resolution, options_.ranges, options_.theta_cells);
+      epipolar_block(inputs.view, inputs.light(), grid_.resolution(), options_.ranges, options_.theta_cells);
   if (!own_ranges) block.own_ranges = 0.0f;
   if (populate_screen_space_) {
     // It finds occluders on the grid's own view rays, those nearer the axis than the image included.
-    const auto count = static_cast<float>(options_.resolution.alpha);
+    const auto count = static_cast<float>(grid_.resolution().alpha);
     const shaders::Angle end = shaders::alpha_of_cell(block, shaders::Cell(count));
     block.alpha_min = shaders::Angle(0.0f);
     block.alpha_step = shaders::spaced_alpha(block, end) / count;
@@ -196,17 +244,17 @@ shaders::EpipolarBlock ShadowVolume::find_ranges(const frame::FrameInputs& input
   found_ = source_of(inputs, block);
   rests_ = inputs.resources.keeps() && filled_ == found_;
   if (rests_) {
-    grid_.bind();
+    bind();
     return block;
   }
   filled_.reset();
   inputs.timer.time("ranges", [&] {
     grid_.block().write(&block, sizeof block);
     grid_.phi_range().clear();
-    grid_.bind();
+    bind();
     grid_.planes().bind_storage(shaders::k_planes_storage);
-    planes_.dispatch({options_.resolution.theta, 1, 1});
-    const int planes = options_.resolution.theta;
+    planes_.dispatch({grid_.resolution().theta, 1, 1});
+    const int planes = grid_.resolution().theta;
     std::vector<glm::vec2> ranges = box_ranges(inputs.scene.box(), inputs.view.camera.eye, block, planes);
     if (options_.ranges == Ranges::full) {
       // Every φ there is, and that a view ray can end at.
@@ -228,33 +276,44 @@ shaders::EpipolarBlock ShadowVolume::find_ranges(const frame::FrameInputs& input
   return block;
 }
 
+void ShadowVolume::bind() const {
+  grid_.bind();
+  if (tree_) tree_->bind();
+}
+
 void ShadowVolume::fill_unscanned(const frame::FrameInputs& inputs, bool with_bits) {
   grid_.planes().bind_storage(shaders::k_planes_storage);
-  plane_cells_.dispatch({options_.resolution.theta, 1, 1});
+  plane_cells_.dispatch({grid_.resolution().theta, 1, 1});
   if (populate_screen_space_) populate_screen_space_->run(inputs, grid_);
   if (populate_shadow_map_) populate_shadow_map_->run(grid_, inputs, reach_of_light_rays(options_));
   if (populate_conservative_) populate_conservative_->run(grid_, inputs.scene, inputs.triangles_at_light());
   if (with_bits && !populate_screen_space_) {
     grid_.bits().clear();
-    dispatch_planes(scatter_, grid_, options_.resolution.phi / 32);
+    dispatch_planes(scatter_, grid_, grid_.resolution().phi / 32);
   }
 }
 
 void ShadowVolume::fill(const frame::FrameInputs& inputs) {
   if (rests_) return;
-  inputs.timer.time("populate", [&] { fill_unscanned(inputs, !fused_scan_); });
-  inputs.timer.time("scan", [&] {
-    if (fused_scan_) fused_scan_->run(grid_);
-    if (or_scan_) or_scan_->run(grid_);
-    if (mip_scan_) mip_scan_->run(grid_);
-  });
+  inputs.timer.time("populate", [&] { fill_unscanned(inputs, or_scan_ || mip_scan_); });
+  if (tree_)
+    inputs.timer.time("tree", [&] { tree_->build(); });
+  else
+    inputs.timer.time("scan", [&] {
+      if (fused_scan_) fused_scan_->run(grid_);
+      if (or_scan_) or_scan_->run(grid_);
+      if (mip_scan_) mip_scan_->run(grid_);
+    });
   filled_ = found_;
   inputs.resources.note_redrawn("volume");
 }
 
 std::map<std::string, std::int64_t> ShadowVolume::bytes() const {
-  std::map<std::string, std::int64_t> bytes = {{"grid", grid_.bits().bytes()},
-                                               {"light_rays", grid_.first_shadowed().bytes()}};
+  std::map<std::string, std::int64_t> bytes = {{"light_rays", grid_.first_shadowed().bytes()}};
+  if (tree_)
+    bytes["change_tree"] = tree_->nodes().bytes();
+  else
+    bytes["grid"] = grid_.bits().bytes();
   if (populate_screen_space_) bytes["crossings"] = populate_screen_space_->bytes();
   if (mip_scan_) bytes["mip_chain"] = mip_scan_->bytes();
   return bytes;

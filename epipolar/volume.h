@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "epipolar/change_tree.h"
 #include "epipolar/fused_scan.h"
 #include "epipolar/grid.h"
 #include "epipolar/mip_scan.h"
@@ -31,6 +32,14 @@ enum class Scan {
   fused,       ///< FusedScan: bits are scattered and scanned in one pass; not for Populate::screen_space
   column,      ///< bits are scattered, then OrScan
   multi_pass,  ///< bits are scattered, then MipScan
+  none,        ///< of Query::tree
+};
+
+/// What a view ray is answered from.
+enum class Query {
+  bits,  ///< the voxels on its row of the grid
+  tree,  ///< ChangeTree, over the first shadowed cells of light rays: no voxel is stored. Not for
+         ///< Populate::screen_space.
 };
 
 /// How a shadow volume is made.
@@ -40,9 +49,14 @@ struct VolumeOptions {
   std::optional<Scan> scan = {};  ///< the fastest if none
   Ranges ranges = Ranges::frame;
   ThetaCells theta_cells = ThetaCells::fitted;
+  Query query = Query::bits;
 
   /// The scan that the options stand for.
   Scan used_scan() const;
+
+  /// The resolution that the options stand for: a tree tells as many cells of α apart as its numbers can,
+  /// whatever is asked for, as they cost it nothing.
+  Resolution used_resolution() const;
 
   /// @throws scene::Error (usage) when the options contradict each other.
   void validate() const;
@@ -58,9 +72,12 @@ struct VolumeOptions {
 /// What there is to choose, for the methods that have a volume.
 std::vector<frame::Option> volume_options();
 
+/// And for those that ask it along view rays.
+frame::Option query_option();
+
 /// The voxelized shadow volume of a frame: ranges → populate → scan. Afterwards the bit of voxel (α_i, θ_j,
-/// φ_k) says whether it is in shadow; with Ranges::frame, only where a pixel may read it. Based on: Wyman,
-/// "Voxelized Shadow Volumes", HPG 2011, section 2.2.
+/// φ_k) says whether it is in shadow; with Ranges::frame, only where a pixel may read it. With Query::tree a
+/// tree takes the place of scan and bits. Based on: Wyman, "Voxelized Shadow Volumes", HPG 2011, section 2.2.
 class ShadowVolume {
  public:
   /// @throws scene::Error (usage) where options contradict each other or are still automatic; (driver) as
@@ -77,10 +94,10 @@ class ShadowVolume {
   /// need not be made anew either.
   bool rests() const { return rests_; }
 
-  /// Populates and scans, unless the volume rests; the grid is bound. Times `populate` and `scan`.
+  /// Populates and scans, unless the volume rests; the grid is bound. Times `populate`, and `scan` or `tree`.
   void fill(const frame::FrameInputs& inputs);
 
-  /// The same without the scan: the bits that it would start from.
+  /// The same without the scan: the bits that it would start from. Not with Query::tree.
   void fill_unscanned(const frame::FrameInputs& inputs) {
     filled_.reset();
     fill_unscanned(inputs, true);
@@ -103,6 +120,7 @@ class ShadowVolume {
   };
   Source source_of(const frame::FrameInputs& inputs, const shaders::EpipolarBlock& block) const;
 
+  void bind() const;
   void fill_unscanned(const frame::FrameInputs& inputs, bool with_bits);
 
   VolumeOptions options_;
@@ -117,6 +135,7 @@ class ShadowVolume {
   std::optional<FusedScan> fused_scan_;
   std::optional<OrScan> or_scan_;
   std::optional<MipScan> mip_scan_;
+  std::optional<ChangeTree> tree_;
 };
 
 }  // namespace airlight::epipolar

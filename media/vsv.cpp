@@ -74,6 +74,7 @@ const Vsv::Programs& Vsv::load(const gpu::Context& context, const Variant& varia
   const auto grid = epipolar::resolution_constants(resolution);
   const gpu::Constant phase(3, variant.phase), channels(4, variant.channels);
   const gpu::Constant whole_voxels(8, options_.volume.populate == epipolar::Populate::conservative);
+  const gpu::Constant tree(17, options_.volume.query == epipolar::Query::tree);
   const gpu::Constant rough(9, variant.rough), layer(10, variant.layer), looks_away(11, variant.looks_away);
   const gpu::Constant reach(12, variant.reach), light_textured(13, variant.colour_rows > 0);
   const gpu::Constant colour_rows(14, variant.colour_rows), colour_columns(15, variant.colour_columns);
@@ -88,17 +89,18 @@ const Vsv::Programs& Vsv::load(const gpu::Context& context, const Variant& varia
     const std::uint32_t sum = variant.integral == VsvIntegral::riemann    ? 1
                               : variant.integral == VsvIntegral::factored ? 2
                                                                           : 0;
-    programs.integrate = frame::ScreenPass(
-        k_vsv_sun_frag,
-        std::array{grid[0], grid[1], grid[2], phase, gpu::Constant(6, sum), whole_voxels, layer, looks_away});
+    programs.integrate =
+        frame::ScreenPass(k_vsv_sun_frag, std::array{grid[0], grid[1], grid[2], phase, gpu::Constant(6, sum),
+                                                     whole_voxels, layer, looks_away, tree});
   } else if (variant.integral == VsvIntegral::riemann) {
     programs.integrate =
         frame::ScreenPass(k_vsv_riemann_frag, std::array{grid[0], grid[1], grid[2], phase, whole_voxels,
                                                          rough, layer, looks_away, reach, light_textured});
   } else if (variant.integral == VsvIntegral::quadrature) {
-    programs.integrate = frame::ScreenPass(
-        k_vsv_quadrature_frag, std::array{grid[0], grid[1], grid[2], phase, channels, whole_voxels, layer,
-                                          looks_away, reach, light_textured, colour_rows, colour_columns});
+    programs.integrate =
+        frame::ScreenPass(k_vsv_quadrature_frag,
+                          std::array{grid[0], grid[1], grid[2], phase, channels, whole_voxels, layer,
+                                     looks_away, reach, light_textured, colour_rows, colour_columns, tree});
     if (variant.colour_rows > 0) {
       programs.build_table =
           gpu::Pipeline::compute(k_vsv_colour_build_comp, std::array{colour_rows, colour_columns});
@@ -114,7 +116,7 @@ const Vsv::Programs& Vsv::load(const gpu::Context& context, const Variant& varia
         k_vsv_table_build_comp, std::array{grid[0], grid[1], grid[2], phase, channels, rows, rough});
     programs.integrate = frame::ScreenPass(
         k_vsv_table_frag, std::array{grid[0], grid[1], grid[2], phase, channels, rows, direct, factored,
-                                     whole_voxels, rough, layer, looks_away});
+                                     whole_voxels, rough, layer, looks_away, tree});
     require_table(std::int64_t{programs.table_rows} * (resolution.phi + 2) * variant.channels * 16,
                   "the table integral");
   }
@@ -127,6 +129,17 @@ VsvIntegral VsvOptions::used_integral(const scene::View& view) const {
     return beyond_tables(view, light) != nullptr;
   });
   return has_table ? VsvIntegral::table : VsvIntegral::quadrature;
+}
+
+void VsvOptions::validate() const {
+  volume.validate();
+  if (volume.query == epipolar::Query::tree &&
+      (integral == VsvIntegral::riemann || integral == VsvIntegral::factored)) {
+    throw scene::Error(scene::ExitCode::usage,
+                       integral == VsvIntegral::riemann ? "integral=riemann" : "integral=factored",
+                       "it counts samples one by one, and query=tree finds changes of visibility",
+                       "use table or quadrature, or query=bits");
+  }
 }
 
 std::optional<frame::Refusal> VsvOptions::refusal(const scene::View& view) const {
@@ -217,6 +230,8 @@ frame::AirlightMethod vsv_method() {
        {"factored", "the lit fraction of what would be without shadow"}},
       &VsvOptions::integral)};
   for (frame::Option& option : frame::options_of(&VsvOptions::volume, epipolar::volume_options()))
+    options.push_back(std::move(option));
+  for (frame::Option& option : frame::options_of(&VsvOptions::volume, {epipolar::query_option()}))
     options.push_back(std::move(option));
   options.push_back(frame::word_option({.name = "phi-cells",
                                         .meaning = "cells of the grid along the light angle",

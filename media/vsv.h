@@ -34,7 +34,8 @@ struct VsvOptions {
   frame::Where where = frame::Where::pixel;
   epipolar::VolumeOptions volume = {};
 
-  void validate() const { volume.validate(); }
+  /// @throws scene::Error (usage) when the options contradict each other.
+  void validate() const;
   void fit(const scene::View& view) {
     integral = used_integral(view);
     volume.fit(view);

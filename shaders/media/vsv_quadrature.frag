@@ -36,27 +36,15 @@ const float k_faint = 20.0;
 struct Runs {
   float lit_from;  // where the next one begins [rad of φ]
   bool has_next;
-  uint texel;      // the next to be read
-  uvec4 changes;   // of visibility, those that are left of the texel before
-  uint last;       // whether its last cell is in shadow; what lies before the first texel counts as lit
+  Changes changes;
 };
-
-// The cell before which visibility changes next, or k_phi_count.
-uint next_change(VsvRay ray, inout Runs runs) {
-  while (runs.changes == uvec4(0u) && runs.texel < texel_count(ray)) {
-    runs.changes = changes_of(seen_bits(ray, runs.texel), runs.last) & before_end(ray, runs.texel);
-    ++runs.texel;
-  }
-  if (runs.changes == uvec4(0u)) return k_phi_count;
-  return 128u * (runs.texel - 1u) + take_lowest(runs.changes);
-}
 
 // The next lit run's φ. Beyond the half-plane's last cell all is lit.
 vec2 next_run(VsvRay ray, inout Runs runs) {
   vec2 run = vec2(runs.lit_from, ray.seen.phi_end);
-  uint dark_from = next_change(ray, runs);
+  uint dark_from = next_change(ray, runs.changes);
   if (dark_from < k_phi_count) run.y = phi_of_cell(ray.cells, float(dark_from));
-  uint lit_from = dark_from < k_phi_count ? next_change(ray, runs) : k_phi_count;
+  uint lit_from = dark_from < k_phi_count ? next_change(ray, runs.changes) : k_phi_count;
   runs.has_next = lit_from < k_phi_count || (dark_from < k_phi_count && goes_beyond(ray));
   runs.lit_from = phi_of_cell(ray.cells, float(lit_from));
   return run;
@@ -105,7 +93,7 @@ void main() {
   if (k_light_textured != 0u) rows = colour_rows(theta_of(space, ray.seen.direction));
 
   vec3 sum = vec3(0.0);
-  Runs runs = Runs(0.0, true, 0u, uvec4(0u), 0u);
+  Runs runs = Runs(0.0, true, changes_along(ray));
   while (runs.has_next) {
     vec2 run = next_run(ray, runs);
     float from = max(run.x, part.from);

@@ -2,15 +2,18 @@
 #include "media/medium_ray.glsl"
 #include "epipolar/resolution.glsl"
 #include "epipolar/phi_range.glsl"
+#include "epipolar/change_tree.glsl"
 #include "media/row_end.glsl"
 
 // Whether a voxel is dark as soon as a triangle touches it, or only where its centre is in shadow.
 layout(constant_id = 8) const uint k_whole_voxels = 0;
 // Whether view rays of the frame look away from the light.
 layout(constant_id = 11) const uint k_looks_away = 0;
+// Whether what lies along view rays is asked of the tree (epipolar/change_tree.glsl), not of the bits.
+layout(constant_id = 17) const uint k_tree = 0;
 
 layout(binding = k_surface_unit) uniform sampler2D surface_image;
-layout(binding = k_grid_unit) uniform usamplerBuffer grid_texels;
+layout(binding = k_grid_unit) uniform usamplerBuffer grid_texels;  // bits, or nodes of the tree
 layout(location = 0) out vec4 airlight;
 
 // How far before the plane, in cells of φ, a bit has to lie to be trusted.
@@ -22,7 +25,7 @@ const float k_touch_slack = 0.25;
 const float k_length_slack = 1e-4;
 
 // A bit of a row, by the row's first texel.
-bool is_shadowed(int row, uint cell) {
+bool is_bit_set(int row, uint cell) {
   uvec4 words = texelFetch(grid_texels, row + int(cell >> 7));
   uint word = cell >> 5 & 3u;
   uint bits = word == 0u ? words.x : word == 1u ? words.y : word == 2u ? words.z : words.w;
@@ -36,8 +39,19 @@ struct VsvRay {
   uint last_cell;    // the cell that holds its end
   int last_valid;    // the last cell whose bit says something about this ray; −1 for none
   uint beyond_valid; // all bits set or none: what cells after that one hold
-  int texel;         // the first texel of its row of bits
+  uint row;          // its row of α
+  int texel;         // the first texel of that row's bits, or the root of its half-plane's tree
 };
+
+// Before the first cell that may say something: whether the row of α at π/2 is dark in the first one.
+bool is_dark_beside_eye(uint plane) {
+  uint row = alpha_cell(space, 0.5 * k_pi, k_alpha_count);
+  if (k_tree != 0u) {
+    uint leaf = plane * nodes_per_plane(k_phi_count) + level_start(tree_levels(k_phi_count) - 1u);
+    return (texelFetch(grid_texels, int(leaf)).x & 0xffffu) <= row;  // what lies before its first light ray is lit
+  }
+  return is_bit_set(int((plane * k_alpha_count + row) * k_texels_per_ray), 0u);
+}
 
 VsvRay vsv_ray(ivec2 pixel) {
   VsvRay ray;
@@ -50,7 +64,8 @@ VsvRay vsv_ray(ivec2 pixel) {
   ray.cells = phi_cells(j);
   ray.end = cell_of_phi(ray.cells, ray.seen.phi_end);
   ray.last_cell = uint(clamp(floor(ray.end), 0.0, float(k_phi_count) - 1.0));
-  ray.texel = int((j * k_alpha_count + i) * k_texels_per_ray);
+  ray.row = i;
+  ray.texel = int(k_tree != 0u ? j * nodes_per_plane(k_phi_count) : (j * k_alpha_count + i) * k_texels_per_ray);
 
   // The bits are those of the row's own ray, at the centre of its cell. Where that ray meets the surface's plane before this one
   // ends, its later bits tell of the other side of the surface: beyond a wall between eye and light they are lit, and as
@@ -79,16 +94,14 @@ VsvRay vsv_ray(ivec2 pixel) {
     ray.last_valid = int(clamp(before, -1.0, float(ray.last_cell)));
     // The cells after it are like it. Where there is none they are lit where the surface faces the light, but for what looks away
     // from the light and ends within its first cell, on the light rays next to the eye: that is as dark as they are beside the eye.
-    bool is_dark;
-    if (ray.last_valid >= 0) {
-      is_dark = is_shadowed(ray.texel, uint(ray.last_valid));
-    } else {
+    bool is_dark = false;
+    if (ray.last_valid < 0) {
       is_dark = light_above(light, surface.xyz, surface.w * dot(surface.xyz, direction)) <= 0.0;
       if (k_looks_away != 0u) {
-        uint beside_eye = alpha_cell(space, 0.5 * k_pi, k_alpha_count);
-        if (ray.seen.angle.cosine < 0.0 && !is_dark)
-          is_dark = is_shadowed(int((j * k_alpha_count + beside_eye) * k_texels_per_ray), 0u);
+        if (ray.seen.angle.cosine < 0.0 && !is_dark) is_dark = is_dark_beside_eye(j);
       }
+    } else if (k_tree == 0u) {
+      is_dark = is_bit_set(ray.texel, uint(ray.last_valid));
     }
     ray.beyond_valid = is_dark ? 0xffffffffu : 0u;
   }
@@ -134,4 +147,66 @@ uint take_lowest(inout uvec4 bits) {
   bits.y = word == 1u ? rest : bits.y;
   bits.x = word == 0u ? rest : bits.x;
   return 32u * word + uint(findLSB(of_word));
+}
+
+// The changes of visibility along a ray, one after the other.
+struct Changes {
+  uint texel;  // of bits: the next to be read, …
+  uvec4 bits;  // … the changes that are left of the one before, …
+  uint last;   // … and whether its last cell is in shadow. What lies before the first texel counts as lit.
+  uint open;   // of the tree: four bits a level, the straddled children of the nodes on the way that are still to be gone into, …
+  uint cell;   // … and where the way has come to
+};
+
+// Which of a node's children a ray straddles, a bit each.
+uint straddled(VsvRay ray, uint level, uint n) {
+  uvec4 node = texelFetch(grid_texels, ray.texel + int(level_start(tree_levels(k_phi_count) - 1u - level) + n));
+  uvec4 changes = uvec4(lessThanEqual(node & 0xffffu, uvec4(ray.row))) & uvec4(greaterThan(node >> 16, uvec4(ray.row)));
+  return changes.x | changes.y << 1 | changes.z << 2 | changes.w << 3;
+}
+
+Changes changes_along(VsvRay ray) {
+  Changes changes = Changes(0u, uvec4(0u), 0u, 0u, 0u);
+  if (k_tree != 0u) {
+    uint top = tree_levels(k_phi_count) - 1u;
+    // Where no cell says anything, the first one changes or none does.
+    uint of_none = ray.beyond_valid & 1u;
+    uint of_root = straddled(ray, top, 0u) << 4u * top;
+    changes.open = ray.end < 0.0 ? 0u : ray.last_valid < 0 ? of_none : of_root;
+  }
+  return changes;
+}
+
+bool has_changes(VsvRay ray, Changes changes) {
+  if (k_tree != 0u) return changes.open != 0u;
+  return changes.bits != uvec4(0u) || changes.texel < texel_count(ray);
+}
+
+// The cell before which visibility changes next, or k_phi_count.
+uint next_change(VsvRay ray, inout Changes changes) {
+  uint found = k_phi_count;
+  if (k_tree != 0u) {
+    int last = max(ray.last_valid, 0);
+    while (found == k_phi_count && changes.open != 0u) {
+      uint bit = uint(findLSB(changes.open));
+      changes.open &= changes.open - 1u;
+      uint level = bit >> 2;
+      uint shift = 2u * level;
+      changes.cell = changes.cell >> (shift + 2u) << (shift + 2u) | (bit & 3u) << shift;
+      if (int(changes.cell) > last) {
+        changes.open = 0u;
+      } else if (level == 0u) {
+        found = changes.cell;
+      } else {
+        changes.open |= straddled(ray, level - 1u, changes.cell >> shift) << (4u * level - 4u);
+      }
+    }
+  } else {
+    while (changes.bits == uvec4(0u) && changes.texel < texel_count(ray)) {
+      changes.bits = changes_of(seen_bits(ray, changes.texel), changes.last) & before_end(ray, changes.texel);
+      ++changes.texel;
+    }
+    if (changes.bits != uvec4(0u)) found = 128u * (changes.texel - 1u) + take_lowest(changes.bits);
+  }
+  return found;
 }

@@ -25,34 +25,37 @@ void main() {
   float dark_range = 0.0;
   float lit_from = sun.entry;
   bool is_lit = true;
-  uint last = 0u;
-  for (uint texel = 0u; texel < texel_count(ray); ++texel) {
-    uvec4 shadow = seen_bits(ray, texel);
-    uvec4 inside = before_end(ray, texel);
-    if (k_sum == k_factored) {
-      for (uint word = 0u; word < 4u; ++word) {
-        float first = float(128u * texel + 32u * word);
-        float width = stretch * (phi_of_cell(ray.cells, first + 32.0) - phi_of_cell(ray.cells, first)) / 32.0;
-        dark_range += width * float(bitCount(shadow[word] & inside[word]));
-        lit_range += width * float(bitCount(~shadow[word] & inside[word]));
-      }
-    } else if (k_sum == k_riemann) {
-      uvec4 lit = ~shadow & inside;
-      while (lit != uvec4(0u)) {
-        float k = float(128u * texel + take_lowest(lit));
-        float from = clamp(phi_of_cell(ray.cells, k) * stretch, sun.entry, sun.exit);
-        float to = clamp(phi_of_cell(ray.cells, k + 1.0) * stretch, sun.entry, sun.exit);
-        float path = sun.path + sun.slope * (0.5 * (from + to) - sun.entry);
-        integral += (to - from) * exp(-min(medium.sigma_t * path, vec3(k_deepest)));
-      }
-    } else {
-      uvec4 changes = changes_of(shadow, last) & inside;
-      while (changes != uvec4(0u)) {
-        float k = float(128u * texel + take_lowest(changes));
-        float at = clamp(phi_of_cell(ray.cells, k) * stretch, sun.entry, sun.exit);
+  if (k_sum == k_runs) {
+    Changes changes = changes_along(ray);
+    while (has_changes(ray, changes)) {
+      uint k = next_change(ray, changes);
+      if (k < k_phi_count) {
+        float at = clamp(phi_of_cell(ray.cells, float(k)) * stretch, sun.entry, sun.exit);
         if (is_lit) integral += integrate_sun_run(medium, sun, lit_from, at);
         is_lit = !is_lit;
         lit_from = at;
+      }
+    }
+  } else {
+    for (uint texel = 0u; texel < texel_count(ray); ++texel) {
+      uvec4 shadow = seen_bits(ray, texel);
+      uvec4 inside = before_end(ray, texel);
+      if (k_sum == k_factored) {
+        for (uint word = 0u; word < 4u; ++word) {
+          float first = float(128u * texel + 32u * word);
+          float width = stretch * (phi_of_cell(ray.cells, first + 32.0) - phi_of_cell(ray.cells, first)) / 32.0;
+          dark_range += width * float(bitCount(shadow[word] & inside[word]));
+          lit_range += width * float(bitCount(~shadow[word] & inside[word]));
+        }
+      } else {
+        uvec4 lit = ~shadow & inside;
+        while (lit != uvec4(0u)) {
+          float k = float(128u * texel + take_lowest(lit));
+          float from = clamp(phi_of_cell(ray.cells, k) * stretch, sun.entry, sun.exit);
+          float to = clamp(phi_of_cell(ray.cells, k + 1.0) * stretch, sun.entry, sun.exit);
+          float path = sun.path + sun.slope * (0.5 * (from + to) - sun.entry);
+          integral += (to - from) * exp(-min(medium.sigma_t * path, vec3(k_deepest)));
+        }
       }
     }
   }

@@ -35,7 +35,12 @@ void main() {
   vec3 integral = vec3(0.0);
   if (ray.last_cell < k_direct_cells) {
     float complement = alpha_complement(ray.seen.angle);
-    uint shadow = seen_bits(ray, 0u).x;
+    uint shadow = 0u;
+    Changes changes = changes_along(ray);
+    while (has_changes(ray, changes)) {
+      uint cell = next_change(ray, changes);
+      if (cell <= ray.last_cell) shadow ^= 0xffffffffu << cell;
+    }
     float first = min(phi_of_cell(ray.cells, 0.0), ray.seen.phi_end);
     integral += integrate_run(space, medium, k_phase, complement, 0.0, first);
     for (uint k = 0u; k <= ray.last_cell; ++k) {
@@ -56,11 +61,10 @@ void main() {
     float word_start = phi_of_cell(ray.cells, 0.0);
     float lit_range = min(word_start, ray.seen.phi_end);  // of φ
     float dark_range = 0.0;
-    uint last = 0u;  // what lies before the first cell counts as lit
-    for (uint texel = 0u; texel < texel_count(ray); ++texel) {
-      uvec4 shadow = seen_bits(ray, texel);
-      uvec4 inside = before_end(ray, texel);
-      if (k_factored != 0u) {
+    if (k_factored != 0u) {
+      for (uint texel = 0u; texel < texel_count(ray); ++texel) {
+        uvec4 shadow = seen_bits(ray, texel);
+        uvec4 inside = before_end(ray, texel);
         for (uint word = 0u; word < 4u; ++word) {
           float word_end = phi_of_cell(ray.cells, float(128u * texel + 32u * word + 32u));
           float width = (word_end - word_start) / 32.0;
@@ -68,10 +72,12 @@ void main() {
           lit_range += width * float(bitCount(~shadow[word] & inside[word]));
           word_start = word_end;
         }
-      } else {
-        uvec4 changes = changes_of(shadow, last) & inside;
-        while (changes != uvec4(0u)) {
-          uint cell = 128u * texel + take_lowest(changes);
+      }
+    } else {
+      Changes changes = changes_along(ray);
+      while (has_changes(ray, changes)) {
+        uint cell = next_change(ray, changes);
+        if (cell < k_phi_count) {
           add_entry(place_of_cell(ray.cells, float(cell)), row_start, sign, sum);
           sign = -sign;
         }

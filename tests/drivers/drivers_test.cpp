@@ -119,7 +119,7 @@ TEST_P(Drivers, ShowTheSameImages) {
     surfaces += fmt::format("{}vsv:populate={}", surfaces.empty() ? "" : ",", populate);
   }
   // Not froxel, on whose passes lavapipe 22.3.6 crashes; why is not known.
-  volumes += ",march,march:spacing=angle:jitter=interleaved,march:jitter=gathered";
+  volumes += ",vsv:query=tree,march,march:spacing=angle:jitter=interleaved,march:jitter=gathered";
   const std::string methods[] = {fmt::format("--surface shadow-map --volume {}", volumes),
                                  fmt::format("--surface {} --volume none", surfaces)};
 

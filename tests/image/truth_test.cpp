@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -21,17 +20,6 @@ namespace airlight {
 namespace {
 
 using tests::CyclesImage, tests::mean, tests::percentile;
-
-std::vector<CyclesImage> all_images() {
-  std::vector<CyclesImage> images(std::begin(tests::k_cycles_airlight), std::end(tests::k_cycles_airlight));
-  images.push_back(tests::k_cycles_full);
-  images.insert(images.end(), std::begin(tests::k_cycles_sun_airlight),
-                std::end(tests::k_cycles_sun_airlight));
-  images.push_back(tests::k_cycles_sun_full);
-  images.push_back(tests::k_cycles_spot_airlight);
-  images.push_back(tests::k_cycles_three_full);
-  return images;
-}
 
 class VsvTruth : public testing::TestWithParam<CyclesImage> {};
 
@@ -71,7 +59,7 @@ TEST_P(VsvTruth, MeanAndPercentilesAgree) {
   EXPECT_LT(percentile(differences, 85), 0.05);
 }
 
-INSTANTIATE_TEST_SUITE_P(Cycles, VsvTruth, testing::ValuesIn(all_images()),
+INSTANTIATE_TEST_SUITE_P(Cycles, VsvTruth, testing::ValuesIn(tests::all_cycles_images()),
                          [](const auto& test) { return std::string(test.param.image); });
 
 TEST(ReferenceTruth, MeanOfThreeLightsAgrees) {

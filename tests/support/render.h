@@ -30,6 +30,7 @@ struct VsvSettings {
   epipolar::Ranges ranges = epipolar::Ranges::frame;
   media::PhiCells phi_cells = media::PhiCells::growing;
   epipolar::ThetaCells theta_cells = epipolar::ThetaCells::fitted;
+  epipolar::Query query = epipolar::Query::bits;
   bool surface_shadows = false;  ///< by the shadow map; else every surface is lit
 };
 
@@ -63,7 +64,8 @@ inline frame::FrameImages render_vsv(const scene::Geometry& geometry, const scen
                                             .populate = settings.populate,
                                             .scan = settings.scan,
                                             .ranges = settings.ranges,
-                                            .theta_cells = settings.theta_cells}});
+                                            .theta_cells = settings.theta_cells,
+                                            .query = settings.query}});
   if (!settings.surface_shadows) return render_airlight(geometry, view, vsv, settings.shadow_map);
   frame::Frame frame(gpu_context(), geometry, settings.shadow_map);
   surface_shadows::ShadowMapLookup lookup;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -79,6 +80,16 @@ inline const CyclesImage k_cycles_three_full =
     {"cornell_three_full", "cornell_box_36", {0, 1, 3.6}, {0, 1, 0}, 40, {0.2, 1.85, 0.1}, 2, 0.3f, 0.05f, 0, 0.5f, {}, scene::LightKind::point, {}, 0,
      {scene::point_light("", {-0.7, 0.5, 0.8}, glm::vec3(0.7f)), scene::point_light("", {0.6, 1.2, -0.6}, glm::vec3(1.2f))}};
 // clang-format on
+
+inline std::vector<CyclesImage> all_cycles_images() {
+  std::vector<CyclesImage> images(std::begin(k_cycles_airlight), std::end(k_cycles_airlight));
+  images.push_back(k_cycles_full);
+  images.insert(images.end(), std::begin(k_cycles_sun_airlight), std::end(k_cycles_sun_airlight));
+  images.push_back(k_cycles_sun_full);
+  images.push_back(k_cycles_spot_airlight);
+  images.push_back(k_cycles_three_full);
+  return images;
+}
 
 inline double mean(const std::vector<float>& values) {
   double sum = 0;

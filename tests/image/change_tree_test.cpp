@@ -1,0 +1,133 @@
+#include "epipolar/change_tree.h"
+
+#include <ostream>
+
+#include <gtest/gtest.h>
+
+#include "scene/error.h"
+#include "support/render.h"
+#include "support/scenes.h"
+
+/// Airlight from a tree of changes, and from the bits of a grid with as many rows of α as its numbers tell
+/// apart: the same.
+namespace airlight {
+namespace {
+
+using epipolar::Populate;
+using epipolar::Query;
+using media::VsvIntegral;
+
+struct Case {
+  const char* name;
+  scene::View view;
+  Populate populate = Populate::shadow_map;
+  VsvIntegral integral = VsvIntegral::automatic;
+  int phi = 128;
+  bool has_plate = false;  ///< just before the eye, and one behind it
+};
+void PrintTo(const Case& of, std::ostream* stream) {
+  *stream << of.name;
+}
+
+/// Blocks before the walls of an open room.
+scene::Geometry blocks() {
+  scene::Geometry geometry;
+  tests::add_quad(geometry, {-3, -1, -3}, {6, 0, 0}, {0, 0, 6});
+  tests::add_quad(geometry, {-3, -1, -3}, {0, 4, 0}, {6, 0, 0});
+  for (int i = 0; i < 9; ++i) {
+    const glm::vec3 at(static_cast<float>(i % 3) - 1.2f, 0.4f * static_cast<float>(i / 3) - 0.8f,
+                       -0.7f * static_cast<float>(i % 4));
+    tests::add_box(geometry, at, at + glm::vec3(0.3f, 0.17f, 0.25f));
+  }
+  return geometry;
+}
+
+scene::View lit_by(const scene::Light& light) {
+  scene::View view;
+  view.camera.eye = {0.1, 0.2, 3};
+  view.camera.target = {0, 0, 0};
+  view.camera.vertical_fov_degrees = 70;
+  view.medium.sigma_s = {0.1f, 0.2f, 0.3f};
+  view.lights = {light};
+  view.size = {65, 47};
+  return view;
+}
+
+scene::View lamp_at(glm::dvec3 position) {
+  return lit_by(scene::point_light("", position, glm::vec3(10)));
+}
+
+std::vector<Case> cases() {
+  const scene::View in_view = lamp_at({0.3, 0.5, -0.2}), aside = lamp_at({4, 3, 1});
+  const scene::View behind = lamp_at({0.4, 0.9, 4}),
+                    sun = lit_by(scene::sun("", {0.5, 1, 0.3}, glm::vec3(5)));
+  return {{"lamp_in_view", in_view},
+          {"lamp_aside", aside},
+          {"lamp_behind", behind},
+          {"sun", sun},
+          {"quadrature", in_view, Populate::shadow_map, VsvIntegral::quadrature},
+          {"conservative", aside, Populate::conservative},
+          {"conservative_behind", behind, Populate::conservative, VsvIntegral::quadrature},
+          // There, rays end before the first light ray of their half-plane that says anything: dark where the
+          // plate looks away from the lamp, and where the eye is in the other one's shadow.
+          {"dark_plate", aside, Populate::shadow_map, VsvIntegral::automatic, 128, true},
+          {"plate_in_shadow", behind, Populate::shadow_map, VsvIntegral::quadrature, 128, true},
+          // Neither is a power of four, and their trees have five levels and six.
+          {"phi_384", in_view, Populate::shadow_map, VsvIntegral::automatic, 384},
+          {"phi_1152", aside, Populate::shadow_map, VsvIntegral::quadrature, 1152}};
+}
+
+class ChangeTreeOf : public ::testing::TestWithParam<Case> {};
+
+TEST_P(ChangeTreeOf, SeesWhatTheBitsSay) {
+  const Case& of = GetParam();
+  scene::Geometry geometry = blocks();
+  if (of.has_plate) {
+    tests::add_quad(geometry, {0.1f, 0.1f, 2.999f}, {1, 0, 0.1f}, {0, 0.2f, 0});
+    tests::add_quad(geometry, {0, 0.2f, 3.2f}, {0.3f, 0, 0}, {0, 0.3f, 0});
+  }
+  const auto render = [&](Query query) {
+    return tests::render_vsv(geometry, of.view,
+                             {.resolution = {epipolar::k_tree_alpha, 24, of.phi},
+                              .integral = of.integral,
+                              .shadow_map = 256,
+                              .populate = of.populate,
+                              .query = query});
+  };
+  const auto bits = render(Query::bits).airlight;
+  EXPECT_TRUE(render(Query::tree).airlight == bits);
+  // There is shadow in it.
+  const auto unshadowed = tests::render_vsv({}, of.view).airlight;
+  EXPECT_GT(tests::error_of(unshadowed, bits).rrmse, 0.02);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, ChangeTreeOf, ::testing::ValuesIn(cases()),
+                         [](const auto& of) { return of.param.name; });
+
+TEST(ChangeTree, RefusesWhatItCannotServe) {
+  const auto message_of = [](const media::VsvOptions& options) {
+    try {
+      options.validate();
+    } catch (const scene::Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const epipolar::VolumeOptions tree{.query = Query::tree};
+  EXPECT_EQ(message_of({.volume = tree}), "");
+  EXPECT_NE(message_of({.integral = VsvIntegral::riemann, .volume = tree}).find("integral=riemann"),
+            std::string::npos);
+  EXPECT_NE(message_of({.integral = VsvIntegral::factored, .volume = tree}).find("integral=factored"),
+            std::string::npos);
+  EXPECT_NE(
+      message_of({.volume = {.populate = Populate::screen_space, .query = Query::tree}}).find("populate"),
+      std::string::npos);
+  EXPECT_NE(message_of({.volume = {.scan = epipolar::Scan::column, .query = Query::tree}}).find("scan"),
+            std::string::npos);
+  EXPECT_NE(message_of({.volume = {.scan = epipolar::Scan::none}}).find("scan"), std::string::npos);
+  EXPECT_NE(message_of({.volume = {.resolution = {1, 1, 131072}, .query = Query::tree}}).find("phi=131072"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace airlight
