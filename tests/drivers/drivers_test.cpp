@@ -154,7 +154,7 @@ TEST_P(Drivers, ShowTheSameImages) {
     fs::remove_all(folder_ / "default");
     fs::remove_all(folder_ / "zink");
   }
-  EXPECT_EQ(images, 18);
+  EXPECT_EQ(images, 19);
   std::cout << fmt::format(
       "Two drivers, {}: the airlight of {} images differs by at most {:.2g}, in {:.2g} % of the pixels by "
       "more than "
