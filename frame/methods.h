@@ -67,6 +67,10 @@ class SurfaceShadow {
 
   /// Memory of its own on the GPU, by name.
   virtual std::map<std::string, std::int64_t> bytes() const { return {}; }
+
+  /// What the `query` just before, with the same inputs, has cost, whatever the machine, by name, summed over
+  /// all pixels. It may cost more itself: the next call is to `query`.
+  virtual std::map<std::string, double> counters(const FrameInputs&) { return {}; }
 };
 
 /// A picture of what a method holds.
@@ -94,6 +98,9 @@ class Airlight {
 
   /// Memory of its own on the GPU, by name.
   virtual std::map<std::string, std::int64_t> bytes() const { return {}; }
+
+  /// As of a SurfaceShadow, summed over the rays that `integrate` was asked of.
+  virtual std::map<std::string, double> counters(const FrameInputs&) { return {}; }
 
   /// Pictures of what `integrate`, called just before with the same inputs, left on the GPU. They may cost
   /// it: the next call is to `integrate`.

@@ -111,6 +111,11 @@ void Froxel::integrate(const frame::FrameInputs& inputs, const gpu::Texture& rad
   });
 }
 
+std::map<std::string, double> Froxel::counters(const frame::FrameInputs&) {
+  const glm::dvec3 count(froxels_.extent());
+  return {{"look_ups", options_.samples * count.x * count.y * count.z}};
+}
+
 frame::AirlightMethod froxel_method() {
   return frame::describe<frame::Airlight, FroxelOptions>(
       "froxel", "a volume of the view frustum, lit from the shadow map", {},

@@ -43,6 +43,8 @@ class Froxel : public frame::Airlight {
 
   /// The options must not refuse the view.
   void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override;
+  /// "look_ups" of the shadow map.
+  std::map<std::string, double> counters(const frame::FrameInputs& inputs) override;
   std::map<std::string, std::int64_t> bytes() const override { return {{"froxels", froxels_.bytes()}}; }
 
  private:

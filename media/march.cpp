@@ -68,6 +68,10 @@ std::map<std::string, std::int64_t> March::bytes() const {
   return {{"scattered", scattered_.bytes()}};
 }
 
+std::map<std::string, double> March::counters(const frame::FrameInputs& inputs) {
+  return {{"look_ups", static_cast<double>(options_.steps) * inputs.view.size.x * inputs.view.size.y}};
+}
+
 frame::AirlightMethod march_method() {
   return frame::describe<frame::Airlight, MarchOptions>(
       "march", "look-ups of the shadow map along each view ray", {},

@@ -50,6 +50,8 @@ class March : public frame::Airlight {
   void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override;
   frame::Where where() const override { return options_.where; }
   std::map<std::string, std::int64_t> bytes() const override;
+  /// "look_ups" of the shadow map.
+  std::map<std::string, double> counters(const frame::FrameInputs& inputs) override;
 
  private:
   /// What the shader is specialised for.

@@ -14,6 +14,7 @@
 
 #include "spirv/media/phi_growth_comp.h"
 #include "spirv/media/vsv_colour_build_comp.h"
+#include "spirv/media/vsv_count_frag.h"
 #include "spirv/media/vsv_quadrature_frag.h"
 #include "spirv/media/vsv_riemann_frag.h"
 #include "spirv/media/vsv_sun_frag.h"
@@ -83,6 +84,7 @@ const Vsv::Programs& Vsv::load(const gpu::Context& context, const Variant& varia
     table_ = gpu::Buffer(bytes);
     table_texels_ = {context.limits(), table_, gpu::Format::rgba32f, what};
   };
+  programs.of_ray = {grid[0], grid[1], grid[2], phase, whole_voxels, layer, looks_away, tree};
   programs.phi_growth = gpu::Pipeline::compute(k_phi_growth_comp, std::array{grid[0], phase});
   if (variant.sun) {
     // In the order of shaders/media/vsv_sun.frag.
@@ -181,6 +183,7 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
             .sun = is_sun,
             .layer = layer,
             .looks_away = alpha_max(space, volume_.grid().resolution()) > 0.5f * shaders::k_half_turn});
+  last_ = &programs;
   if (options_.phi_cells == PhiCells::growing && !volume_.rests())
     inputs.timer.time("ranges", [&] { programs.phi_growth.dispatch({1, 1, 1}); });
 
@@ -206,6 +209,19 @@ std::map<std::string, std::int64_t> Vsv::bytes() const {
   std::map<std::string, std::int64_t> bytes = volume_.bytes();
   if (table_.bytes() > 0) bytes["table"] = table_.bytes();
   return bytes;
+}
+
+std::map<std::string, double> Vsv::counters(const frame::FrameInputs& inputs) {
+  const frame::ScreenPass pass(k_vsv_count_frag, last_->of_ray);
+  const gpu::Texture counts(gpu::Format::rgba32f, inputs.view.size);
+  inputs.surfaces.bind_sampler(shaders::k_surface_unit);
+  pass.run({counts});
+  double changes = 0.0, reads = 0.0;
+  for (const glm::vec4& ray : counts.read<glm::vec4>()) {
+    changes += static_cast<double>(ray.x);
+    reads += static_cast<double>(ray.y);
+  }
+  return {{"changes", changes}, {"reads", reads}};
 }
 
 std::vector<frame::DebugImage> Vsv::debug_images(const frame::FrameInputs& inputs) {

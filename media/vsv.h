@@ -65,6 +65,8 @@ class Vsv : public frame::Airlight {
   void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override;
   frame::Where where() const override { return options_.where; }
   std::map<std::string, std::int64_t> bytes() const override;
+  /// "changes" of visibility, and "reads" of 128 bits, by which they are found.
+  std::map<std::string, double> counters(const frame::FrameInputs& inputs) override;
   std::vector<frame::DebugImage> debug_images(const frame::FrameInputs& inputs) override;
 
   const epipolar::ShadowVolume& volume() const { return volume_; }
@@ -84,6 +86,7 @@ class Vsv : public frame::Airlight {
     gpu::Pipeline phi_growth, build_table;
     std::uint32_t table_rows = 0;  ///< 0 where there is no table
     frame::ScreenPass integrate;
+    std::vector<gpu::Constant> of_ray;  ///< of shaders/media/vsv_ray.glsl
   };
   /// Those of a variant, and a table with room for it. Lights of a frame may be of different ones, in turns.
   const Programs& load(const gpu::Context& context, const Variant& variant);
@@ -91,7 +94,8 @@ class Vsv : public frame::Airlight {
   VsvOptions options_;
   epipolar::ShadowVolume volume_;
   std::map<Variant, Programs> programs_;
-  gpu::Buffer table_;  ///< of the integral, or of a textured light's colours
+  const Programs* last_ = nullptr;  ///< of the last `integrate`
+  gpu::Buffer table_;               ///< of the integral, or of a textured light's colours
   gpu::TexelView table_texels_;
 };
 

@@ -65,6 +65,39 @@ class DebugProbe : public frame::Airlight {
   std::vector<frame::DebugImage> images_;
 };
 
+/// What methods count of each light, summed.
+class CountedAirlight : public frame::Airlight {
+ public:
+  explicit CountedAirlight(frame::Airlight& airlight) : airlight_(airlight) {}
+  void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override {
+    airlight_.integrate(inputs, radiance);
+    for (const auto& [name, count] : airlight_.counters(inputs)) counts[name] += count;
+  }
+  frame::Where where() const override { return airlight_.where(); }
+  bool sees_every_light() const override { return airlight_.sees_every_light(); }
+
+  std::map<std::string, double> counts;
+
+ private:
+  frame::Airlight& airlight_;
+};
+
+class CountedShadow : public frame::SurfaceShadow {
+ public:
+  explicit CountedShadow(frame::SurfaceShadow& shadow) : shadow_(shadow) {}
+  gpu::Format visibility_format() const override { return shadow_.visibility_format(); }
+  void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override {
+    shadow_.query(inputs, visibility);
+    for (const auto& [name, count] : shadow_.counters(inputs)) counts[name] += count;
+  }
+  bool sees_every_light() const override { return shadow_.sees_every_light(); }
+
+  std::map<std::string, double> counts;
+
+ private:
+  frame::SurfaceShadow& shadow_;
+};
+
 }  // namespace
 
 Measurer::Measurer(gpu::Context& context, const scene::Geometry& geometry, const scene::View& view,
@@ -86,6 +119,16 @@ void Measurer::look_at(const scene::View& view) {
 void Measurer::draw(frame::SurfaceShadow& shadow, frame::Airlight& airlight) {
   gpu::StageTimer off(nullptr);
   frame_.render(*view_, shadow, airlight, off);
+}
+
+std::map<std::string, double> Measurer::count(frame::SurfaceShadow& shadow, frame::Airlight& airlight) {
+  CountedShadow counted_shadow(shadow);
+  CountedAirlight counted_airlight(airlight);
+  draw(counted_shadow, counted_airlight);
+  std::map<std::string, double> counters = counted_airlight.counts;
+  counters.merge(counted_shadow.counts);
+  for (auto& [name, count] : counters) count /= static_cast<double>(view_->size.x) * view_->size.y;
+  return counters;
 }
 
 void Measurer::try_out(std::span<const VolumeChoice> volumes, std::span<const SurfaceChoice> surfaces) {
@@ -219,6 +262,8 @@ Measurer::Measurement Measurer::measure(const VolumeChoice& volume, const Surfac
   cost.self_error = staged[0].work.self_error;
   if (cost.rays > 0) cost.mrays_per_s = static_cast<double>(cost.rays) / (1e3 * median(tracing));
   cost.bytes = bytes_of(*shadow, *airlight);
+  if (volume.method->traits.runs_on_gpu && surface.method->traits.runs_on_gpu)
+    cost.counters = count(*shadow, *airlight);
   return measurement;
 }
 

@@ -36,6 +36,8 @@ struct Cost {
   double cpu_ms = 0.0;  ///< of the process; NaN where an image was kept from before
   int frames = 0;
   std::map<std::string, std::int64_t> bytes;
+  /// What no machine bends, a pixel: see frame::Airlight::counters. None along a path.
+  std::map<std::string, double> counters;
   std::uint64_t rays = 0;    ///< 0 for a method that traces none
   double mrays_per_s = 0.0;  ///< 0 for a method that traces none
   double self_error = 0.0;   ///< reference::AirlightImage::self_error, of several lights the largest
@@ -80,6 +82,7 @@ class Measurer {
   /// A frame's time is the median over whole frames, after a warm-up and a few with timed stages. The warm-up
   /// is one frame, on a GPU as many as take 0.3 s: one that has rested runs its first frames several times
   /// slower. Where the first frame takes more than 2 s it is the only one. Each frame draws all of its own.
+  /// One more frame of methods of the GPU is drawn for counters.
   /// @param frames timed, after warm-up
   Measurement measure(const VolumeChoice& volume, const SurfaceChoice& surface, int frames);
 
@@ -131,6 +134,7 @@ class Measurer {
   std::map<std::string, std::int64_t> bytes_of(const frame::SurfaceShadow& shadow,
                                                const frame::Airlight& airlight) const;
   void draw(frame::SurfaceShadow& shadow, frame::Airlight& airlight);
+  std::map<std::string, double> count(frame::SurfaceShadow& shadow, frame::Airlight& airlight);
 
   gpu::Context& context_;
   const scene::Geometry& geometry_;

@@ -135,6 +135,7 @@ Json run_json(const Run& run, const scene::View& view) {
                {"cpu_ms", number_json(run.cost.cpu_ms)},
                {"frames", run.cost.frames},
                {"bytes", run.cost.bytes},
+               {"counters", run.cost.counters},
                {"error",
                 {{"airlight",
                   {{"dark", error.is_dark},

@@ -91,6 +91,14 @@ void Psv::count_nodes(const frame::FrameInputs& inputs, const gpu::Texture& coun
   run(query_pass(true), inputs, counts);
 }
 
+std::map<std::string, double> Psv::counters(const frame::FrameInputs& inputs) {
+  const gpu::Texture of_pixels(gpu::Format::r32f, inputs.view.size);
+  count_nodes(inputs, of_pixels);
+  double nodes = 0.0;
+  for (const float count : of_pixels.read<float>()) nodes += static_cast<double>(count);
+  return {{"surface_nodes", nodes}};
+}
+
 std::map<std::string, std::int64_t> Psv::bytes() const {
   return {{"occluders", occluders_.bytes()},
           {"tree", planes_.bytes() + links_.bytes() + subtrees_.bytes() + order_.bytes()}};

@@ -33,6 +33,8 @@ class Psv : public frame::SurfaceShadow {
   explicit Psv(const PsvOptions& options);
   void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override;
   std::map<std::string, std::int64_t> bytes() const override;
+  /// "surface_nodes" of the tree that pixels visit.
+  std::map<std::string, double> counters(const frame::FrameInputs& inputs) override;
 
   /// How many nodes each pixel visited, instead of visibility, of the tree that the last `query` made.
   /// @param counts r32f

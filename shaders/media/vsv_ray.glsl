@@ -156,6 +156,7 @@ struct Changes {
   uint last;   // … and whether its last cell is in shadow. What lies before the first texel counts as lit.
   uint open;   // of the tree: four bits a level, the straddled children of the nodes on the way that are still to be gone into, …
   uint cell;   // … and where the way has come to
+  uint reads;  // texels or nodes so far (vsv_count.frag)
 };
 
 // Which of a node's children a ray straddles, a bit each.
@@ -166,12 +167,13 @@ uint straddled(VsvRay ray, uint level, uint n) {
 }
 
 Changes changes_along(VsvRay ray) {
-  Changes changes = Changes(0u, uvec4(0u), 0u, 0u, 0u);
+  Changes changes = Changes(0u, uvec4(0u), 0u, 0u, 0u, 0u);
   if (k_tree != 0u) {
     uint top = tree_levels(k_phi_count) - 1u;
     // Where no cell says anything, the first one changes or none does.
     uint of_none = ray.beyond_valid & 1u;
     uint of_root = straddled(ray, top, 0u) << 4u * top;
+    changes.reads = 1u;
     changes.open = ray.end < 0.0 ? 0u : ray.last_valid < 0 ? of_none : of_root;
   }
   return changes;
@@ -199,12 +201,14 @@ uint next_change(VsvRay ray, inout Changes changes) {
         found = changes.cell;
       } else {
         changes.open |= straddled(ray, level - 1u, changes.cell >> shift) << (4u * level - 4u);
+        ++changes.reads;
       }
     }
   } else {
     while (changes.bits == uvec4(0u) && changes.texel < texel_count(ray)) {
       changes.bits = changes_of(seen_bits(ray, changes.texel), changes.last) & before_end(ray, changes.texel);
       ++changes.texel;
+      ++changes.reads;
     }
     if (changes.bits != uvec4(0u)) found = 128u * (changes.texel - 1u) + take_lowest(changes.bits);
   }

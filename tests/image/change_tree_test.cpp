@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "quality/measure.h"
 #include "scene/error.h"
 #include "support/render.h"
 #include "support/scenes.h"
@@ -103,6 +104,34 @@ TEST_P(ChangeTreeOf, SeesWhatTheBitsSay) {
 
 INSTANTIATE_TEST_SUITE_P(Cases, ChangeTreeOf, ::testing::ValuesIn(cases()),
                          [](const auto& of) { return of.param.name; });
+
+std::map<std::string, double> counters(const scene::Geometry& geometry, const scene::View& view,
+                                       const std::string& volume) {
+  quality::Measurer measurer(tests::gpu_context(), geometry, view, 256, {}, {});
+  const auto choices = quality::parse_volumes(volume);
+  return measurer.measure(choices[0], quality::parse_surfaces("none")[0], 1).cost.counters;
+}
+
+TEST(Counters, SayWhatAViewRayTakes) {
+  const scene::View view = lamp_at({0.3, 0.5, -0.2});
+  const scene::Geometry geometry = blocks();
+  auto bits = counters(geometry, view, "vsv:alpha=65535:theta=24:phi=256");
+  auto tree = counters(geometry, view, "vsv:query=tree:theta=24:phi=256");
+  EXPECT_GT(bits["changes"], 0.5);
+  EXPECT_EQ(tree["changes"], bits["changes"]);
+  EXPECT_GT(bits["reads"], 1.0);
+  EXPECT_LE(bits["reads"], 2.0);
+  // The root, and on each of the three levels below at most one node a change: of those before the ray's end,
+  // and of the first one beyond.
+  EXPECT_GT(tree["reads"], 1.0);
+  EXPECT_LE(tree["reads"], 1.0 + 3.0 * (tree["changes"] + 1.0));
+  // Nothing casts a shadow.
+  EXPECT_EQ(counters({}, view, "vsv:theta=24:phi=256")["changes"], 0.0);
+  EXPECT_EQ(counters({}, view, "vsv:query=tree:theta=24:phi=256")["reads"], 1.0);
+  EXPECT_EQ(counters(geometry, view, "march:steps=24")["look_ups"], 24.0);
+  // 9 × 6 tiles of 8 × 8 pixels.
+  EXPECT_EQ(counters(geometry, view, "froxel:slices=32:samples=2")["look_ups"], 9.0 * 6 * 32 * 2 / (65 * 47));
+}
 
 TEST(ChangeTree, RefusesWhatItCannotServe) {
   const auto message_of = [](const media::VsvOptions& options) {
