@@ -11,6 +11,7 @@ namespace airlight::shaders {
 #include "media/reach.glsl"
 #include "media/row_end.glsl"
 #include "media/table_place.glsl"
+static_assert(sizeof(FroxelHistoryBlock) == 96, "must match std140");
 }  // namespace airlight::shaders
 
 namespace airlight::media {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -163,9 +164,13 @@ Run judged_run(Measurer& measurer, std::span<const scene::View> views, bool is_p
     return run;
   }
   run.path.resize(views.size());
+  ErrorImage before;
   const Measurer::PathMeasurement measured = measurer.measure_path(
       volume, surface, views, frames, [&](std::size_t i, const frame::FrameImages& images) {
         run.path[i].errors = judge(images, truths[i]);
+        ErrorImage error = error_image(images, truths[i]);
+        if (i > 0) run.path[i].flicker = flicker(before, error);
+        before = std::move(error);
         if (look) look(run, i, images);
         if (is_worse(run.path[i].errors.airlight, run.path[run.worst_frame].errors.airlight))
           run.worst_frame = i;

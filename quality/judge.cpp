@@ -33,4 +33,9 @@ Errors judge(const frame::FrameImages& images, const Truth& truth) {
   return errors;
 }
 
+ErrorImage error_image(const frame::FrameImages& images, const Truth& truth) {
+  return error_image(floats(images.airlight), images.distance, floats(truth.airlight), truth.distance,
+                     truth.figures.floor);
+}
+
 }  // namespace airlight::quality

@@ -16,4 +16,7 @@ struct Errors {
 
 Errors judge(const frame::FrameImages& images, const Truth& truth);
 
+/// Of the airlight: see `flicker`.
+ErrorImage error_image(const frame::FrameImages& images, const Truth& truth);
+
 }  // namespace airlight::quality

@@ -36,6 +36,11 @@ double percentile_99(std::vector<double>& values) {
   return *place;
 }
 
+/// See SameSurfaceError.
+bool is_same_surface(float distance, float reference_distance) {
+  return !(std::abs(distance - reference_distance) > 1e-3f * reference_distance);
+}
+
 }  // namespace
 
 AirlightError airlight_error(std::span<const float> x, std::span<const float> r, double floor) {
@@ -92,7 +97,7 @@ SameSurfaceError same_surface_error(std::span<const float> x, std::span<const fl
   std::vector<float> kept_x, kept_r;
   SameSurfaceError error{};
   for (std::size_t i = 0; i < distance.size(); ++i) {
-    if (std::abs(distance[i] - reference_distance[i]) > 1e-3f * reference_distance[i]) {
+    if (!is_same_surface(distance[i], reference_distance[i])) {
       ++error.left_out_pixels;
       continue;
     }
@@ -109,6 +114,40 @@ SameSurfaceError same_surface_error(std::span<const float> x, std::span<const fl
   error.leaked = kept.leaked;
   error.spurious = kept.spurious;
   return error;
+}
+
+ErrorImage error_image(std::span<const float> x, std::span<const float> distance, std::span<const float> r,
+                       std::span<const float> reference_distance, double floor) {
+  require_same_length(x.size(), r.size());
+  require_same_length(distance.size(), reference_distance.size());
+  require_finite(x, "image to judge");
+  require_finite(r, "reference image");
+  const std::size_t channels = distance.empty() ? 1 : x.size() / distance.size();
+  ErrorImage error{std::vector<float>(x.size(), std::numeric_limits<float>::quiet_NaN()), 0.0};
+  double sum_r = 0.0;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!is_same_surface(distance[i / channels], reference_distance[i / channels])) continue;
+    error.values[i] = x[i] - r[i];
+    sum_r += static_cast<double>(r[i]);
+    ++kept;
+  }
+  error.mean = sum_r / static_cast<double>(kept);
+  if (!(error.mean > floor)) error.mean = std::numeric_limits<double>::quiet_NaN();
+  return error;
+}
+
+double flicker(const ErrorImage& before, const ErrorImage& after) {
+  require_same_length(before.values.size(), after.values.size());
+  double sum_squares = 0.0;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < after.values.size(); ++i) {
+    const double change = static_cast<double>(after.values[i]) - static_cast<double>(before.values[i]);
+    if (std::isnan(change)) continue;
+    sum_squares += change * change;
+    ++kept;
+  }
+  return std::sqrt(sum_squares / static_cast<double>(kept)) / (0.5 * (before.mean + after.mean));
 }
 
 SurfaceError surface_error(std::span<const float> visibility, const SurfaceVerdicts& verdicts) {

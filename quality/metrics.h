@@ -47,6 +47,29 @@ SameSurfaceError same_surface_error(std::span<const float> x, std::span<const fl
                                     std::span<const float> r, std::span<const float> reference_distance,
                                     double floor = 0.0);
 
+/// What the flicker of a path's next frame asks of a frame.
+struct ErrorImage {
+  /// x − r of each channel of each pixel that same_surface_error keeps; NaN of the others
+  std::vector<float> values;
+  double mean;  ///< of r over the pixels that are kept; NaN where r is dark there
+};
+
+/// @param x, distance, r, reference_distance, floor as of same_surface_error, which it throws as
+ErrorImage error_image(std::span<const float> x, std::span<const float> distance, std::span<const float> r,
+                       std::span<const float> reference_distance, double floor = 0.0);
+
+/// How much the airlight changes from one frame to the next where the reference does not, and the other way
+/// round: sqrt(mean((e₁ − e₀)²)) / mean(r), e = x − r of each frame at one pixel of the image, over the
+/// channels of the pixels that both frames keep; mean(r) is that of both. An error that stays has none; one
+/// of ±a in turns has 2a / mean(r).
+///
+/// Pixels are kept as by same_surface_error, since a pixel at a silhouette that the rasteriser snaps one way
+/// in one frame and the other way in the next says nothing of the airlight. What a moving edge uncovers
+/// counts: its error comes and goes before the eye, and how far surfaces may move to be the same would be
+/// another number to choose.
+/// @returns NaN where a frame is dark, or no pixel is kept by both
+double flicker(const ErrorImage& before, const ErrorImage& after);
+
 /// What the pixels of an image are judged by: nothing where no surface is seen.
 using SurfaceVerdicts = std::vector<std::optional<reference::SurfaceVerdict>>;
 

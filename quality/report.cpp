@@ -84,6 +84,8 @@ frames in the next column, after one frame of warm-up, on a GPU 0.3 s of them. W
 pixel, shows another surface than the reference's ray hits, and how many those are.</dd>
 <dt>rrmse [%]</dt><dd>sqrt(mean((x − r)²)) / mean(r), over all channels of all pixels of the airlight: x this run's, r the reference's.
 “&lt;” marks an error that is not above the bound of the reference's own error.</dd>
+<dt>flicker [%]</dt><dd>sqrt(mean((e₁ − e₀)²)) / mean(r), e = x − r of a path's frame and of the one before, pixel by pixel, over those of
+same-surface rrmse in both: how much the airlight changes where the reference does not. “–” where there is no frame before.</dd>
 <dt>rmse</dt><dd>sqrt(mean((x − r)²)), of the same.</dd>
 <dt>dark</dt><dd>The reference's mean airlight is not above a millionth of what the same light and medium would give if nothing stood
 in them, or 1e-30 W/(m² sr): an error relative to it would be one of rounding, and is not told.</dd>
@@ -220,10 +222,12 @@ std::string path_section(const Comparison& comparison) {
   html += chart(comparison, "frame [ms]", [](const Run::Frame& frame) { return frame.cost.ms; });
   html += chart(comparison, "rrmse [%]",
                 [](const Run::Frame& frame) { return 100.0 * frame.errors.airlight.rrmse; });
+  html += chart(comparison, "flicker [%]", [](const Run::Frame& frame) { return 100.0 * frame.flicker; });
   html +=
       "</div>\n<div class=\"scroll\"><table><thead><tr><th class=\"name\">volume</th><th "
       "class=\"name\">surface</th><th>frame [ms]</th><th>worst</th><th>rrmse [%]</th><th>worst</th>"
-      "<th>same-surface rrmse [%]</th><th>worst</th><th>worst frame</th></tr></thead><tbody>\n";
+      "<th>same-surface rrmse [%]</th><th>worst</th><th>flicker [%]</th><th>worst</th><th>worst "
+      "frame</th></tr></thead><tbody>\n";
   html += rows_of(spread_rows(comparison));
   html +=
       "</tbody></table></div>\n<div class=\"scroll\"><table><thead><tr><th class=\"name\">volume</th><th "

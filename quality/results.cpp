@@ -81,6 +81,7 @@ Json path_json(const Run& run) {
                       {"rrmse", number_json(frame.errors.airlight.rrmse)},
                       {"bias", number_json(frame.errors.airlight.bias)},
                       {"same_surface_rrmse", number_json(frame.errors.same_surface.rrmse)},
+                      {"flicker", number_json(frame.flicker)},
                       {"flip", number_json(frame.errors.flip)},
                       {"wrong_pixels", frame.errors.surface.wrong_pixels},
                       {"undecided_pixels", frame.errors.surface.undecided_pixels},
@@ -90,6 +91,7 @@ Json path_json(const Run& run) {
   return {{"frame_ms", spread_json(spreads.ms)},
           {"rrmse", spread_json(spreads.rrmse)},
           {"same_surface_rrmse", spread_json(spreads.same_surface_rrmse)},
+          {"flicker", spread_json(spreads.flicker)},
           {"worst_frame", run.worst_frame},
           {"frames", frames}};
 }
@@ -200,11 +202,13 @@ std::string path_tables(const Comparison& comparison) {
   };
   return fmt::format("path: {} frames in {:g} s, mean and worst\n", path.frames.size(), path.seconds) +
          table({"volume", "surface", "frame ms", "worst", "rrmse %", "worst", "same-surface rrmse %", "worst",
-                "worst frame"},
+                "flicker %", "worst", "worst frame"},
                spread_rows(comparison), 2) +
          '\n' +
          table({"volume", "surface", "what moves", "frames", "shadow map", "volume redrawn", "frame ms"},
                motion_rows(comparison), 3) +
+         "flicker: rms of what the error changes by since the frame before, in % of the reference's mean; on "
+         "the same surface.\n"
          "what moves: since the frame before; of the first, all. shadow map, volume redrawn: in how many of "
          "these frames.\n\n";
 }
@@ -233,7 +237,8 @@ PathSpreads path_spreads(const Run& run) {
   return {
       .ms = spread([](const Run::Frame& frame) { return frame.cost.ms; }),
       .rrmse = spread([](const Run::Frame& frame) { return frame.errors.airlight.rrmse; }),
-      .same_surface_rrmse = spread([](const Run::Frame& frame) { return frame.errors.same_surface.rrmse; })};
+      .same_surface_rrmse = spread([](const Run::Frame& frame) { return frame.errors.same_surface.rrmse; }),
+      .flicker = spread([](const Run::Frame& frame) { return frame.flicker; })};
 }
 
 std::vector<MotionShare> shares_of_motion(const ComparedPath& path, const Run& run) {
@@ -297,13 +302,18 @@ std::vector<StagesRow> stages_rows(const Comparison& comparison) {
 
 std::vector<std::vector<std::string>> spread_rows(const Comparison& comparison) {
   const auto error = [&](double value) { return error_text(value, comparison.truth.bound); };
+  // It is the difference of two errors, each known to the reference's own.
+  const auto change = [&](double value) {
+    return std::isnan(value) ? "-" : error_text(value, 2.0 * comparison.truth.bound);
+  };
   std::vector<std::vector<std::string>> rows;
   for (const Run& run : comparison.runs) {
     const PathSpreads spreads = path_spreads(run);
     rows.push_back({run.volume, run.surface, fmt::format("{:.2f}", spreads.ms.mean),
                     fmt::format("{:.2f}", spreads.ms.worst), error(spreads.rrmse.mean),
                     error(spreads.rrmse.worst), error(spreads.same_surface_rrmse.mean),
-                    error(spreads.same_surface_rrmse.worst), fmt::format("{}", run.worst_frame)});
+                    error(spreads.same_surface_rrmse.worst), change(spreads.flicker.mean),
+                    change(spreads.flicker.worst), fmt::format("{}", run.worst_frame)});
   }
   return rows;
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -29,6 +30,7 @@ struct Run {
   struct Frame {
     FrameCost cost;
     Errors errors;
+    double flicker = std::numeric_limits<double>::quiet_NaN();  ///< since the frame before, if there is one
   };
   std::string volume, surface;                                 ///< specs, as the user wrote them
   std::string name;                                            ///< stem of its images' file names
@@ -48,12 +50,13 @@ struct Run {
 /// What the worst of errors is told by: rrmse, unless the truth is dark; rmse decides among dark ones.
 bool is_worse(const AirlightError& a, const AirlightError& b);
 
-/// Over a path's frames; NaN, of a dark one, does not count, and is what is left where all are dark.
+/// Over a path's frames; NaN, of a dark one, and of the first one's flicker, does not count, and is what is
+/// left where there is nothing else.
 struct Spread {
   double mean, worst;
 };
 struct PathSpreads {
-  Spread ms, rrmse, same_surface_rrmse;
+  Spread ms, rrmse, same_surface_rrmse, flicker;
 };
 PathSpreads path_spreads(const Run& run);
 
@@ -126,7 +129,7 @@ struct StagesRow {
 std::vector<StagesRow> stages_rows(const Comparison& comparison);
 
 /// Time and error of each run along the path, mean and worst over its frames: volume, surface, frame [ms],
-/// worst, rrmse [%], worst, same-surface rrmse [%], worst, worst frame.
+/// worst, rrmse [%], worst, same-surface rrmse [%], worst, flicker [%], worst, worst frame.
 std::vector<std::vector<std::string>> spread_rows(const Comparison& comparison);
 
 /// Each run's frames apart by what moves (shares_of_motion): volume, surface, what moves, frames, shadow maps

@@ -9,6 +9,7 @@ CONST uint k_camera_block = 0u;  // frame/camera.glsl
 CONST uint k_light_block = 1u;   // frame/light.glsl
 CONST uint k_medium_block = 2u;  // frame/medium.glsl
 CONST uint k_space_block = 3u;   // epipolar/space.glsl
+CONST uint k_froxel_history_block = 4u;  // media/froxels.glsl
 
 // Texture units
 CONST uint k_surface_unit = 0u;         // of a frame: normal and distance a pixel, …
@@ -52,5 +53,6 @@ CONST uint k_subtrees_storage = 4u;
 
 // Image units, of which a compute shader has 8
 CONST uint k_froxels_image = 0u;  // media/froxel_scatter.comp
+CONST uint k_lit_image = 1u;      // the same
 
 #endif

@@ -33,11 +33,14 @@ FUNCTION vec2 part_in_medium(IN(MediumBlock) medium, float rise, float length) {
 FUNCTION float light_path(IN(MediumBlock) medium, IN(LightBlock) light, IN(vec3) point) {
   vec3 way = to_light(light, point);
   float depth = medium.top - point.y;  // below the layer's top
-  if (light.is_near == 0.0f) return is_layer(medium) ? max(depth, 0.0f) / way.y : 0.0f;
   float light_depth = medium.top - light.from_eye.y;
-  if (depth >= 0.0f && light_depth >= 0.0f) return length(way);
-  if (depth <= 0.0f && light_depth <= 0.0f) return 0.0f;
-  return length(way) * max(depth, light_depth) / abs(depth - light_depth);
+  // Chosen from, not branched to: on this function's early returns, inside of loops, lavapipe 22.3.6 crashes.
+  float crossing = max(depth, light_depth) / max(abs(depth - light_depth), 1e-30f);
+  float share = max(depth, light_depth) <= 0.0f ? 0.0f : crossing;
+  share = min(depth, light_depth) >= 0.0f ? 1.0f : share;
+  float of_lamp = length(way) * share;
+  float of_sun = max(depth, 0.0f) / way.y;
+  return light.is_near == 0.0f ? (is_layer(medium) ? of_sun : 0.0f) : of_lamp;
 }
 
 #endif

@@ -1302,6 +1302,11 @@ TEST_F(Paths, AreComparedFrameByFrame) {
     }
     EXPECT_NEAR(path["frame_ms"]["mean"].get<double>(), mean, 1e-6 * mean);
     EXPECT_EQ(path["rrmse"]["worst"], worst);
+    // Of frames in which nothing moves nothing flickers, and of the first one there is none before.
+    EXPECT_TRUE(path["frames"][0]["flicker"].is_null());
+    EXPECT_GT(path["frames"][1]["flicker"], 0.0) << run["volume"];
+    EXPECT_EQ(path["frames"][4]["flicker"], 0.0) << run["volume"];
+    EXPECT_GE(path["flicker"]["worst"], path["frames"][1]["flicker"]);
     EXPECT_EQ(run["error"]["airlight"]["rrmse"], worst);
     const bool has_volume = run["volume"].get<std::string>().starts_with("vsv");
     const Json map = {"shadow_map"}, both = {"shadow_map", "volume"}, volume = {"volume"},

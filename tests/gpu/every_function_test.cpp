@@ -183,6 +183,7 @@ constexpr Function k_functions[] = {
     {"depth_of_slice", 1, 2e-6, 2e-6, Scale::length},  // e^x − 1
     {"slice_of_depth", 1, 2e-6, 1e-4},                 // log: 2⁻²¹ near 1; over ln 4 of 64
     {"place_in_froxel", 3, 0, 1e-5, Scale::one, 20},   // of up to 60
+    {"place_in_slices", 3, 2e-6, 1e-4},                // pixels of hundreds; slices as above
 };
 
 std::vector<Inputs> random_inputs(int count) {

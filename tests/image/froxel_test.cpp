@@ -57,6 +57,23 @@ TEST(Froxel, LightsEmptyFogAsTheReference) {
   }
 }
 
+TEST(Froxel, IsReadAtTheDepthOfSurfacesBetweenTheEndsOfSlices) {
+  // A thin wall edge-on to the sun, so that all air is lit, seen aslant through slices so thick that half of
+  // one shows.
+  scene::Geometry wall;
+  tests::add_box(wall, {-8, -5, -2.501}, {3, 5, -2.5});
+  scene::View view = tests::view_of_coloured_fog({32, 24});
+  view.camera.eye = {0.0, 0.0, 0.0};
+  view.camera.target = {-0.8, 0.0, -1.0};
+  view.lights[0] = scene::sun("", {0.0, 1.0, 0.0}, glm::vec3(2.0f));
+  const tests::Truth truth = tests::trace(wall, view);
+  const auto error =
+      tests::error_of(tests::render_froxel(wall, view, {.tile = 1, .slices = 16}, 1024), truth);
+  RecordProperty("rrmse", std::to_string(error.rrmse));
+  EXPECT_LT(error.rrmse, 0.01);  // airlight is interpolated along a slice
+  EXPECT_LT(std::abs(error.bias), 0.005);
+}
+
 class FroxelBy : public testing::TestWithParam<tests::KindOfLight> {};
 INSTANTIATE_TEST_SUITE_P(Kinds, FroxelBy, testing::ValuesIn(tests::k_kinds_of_light),
                          [](const auto& test) { return std::string(test.param.name); });

@@ -14,7 +14,7 @@
 #include "media/sun.glsl"
 #include "media/table_place.glsl"
 
-CONST uint k_outputs = 192u;
+CONST uint k_outputs = 195u;
 
 struct Inputs {
   vec4 a;  // axis, D
@@ -336,6 +336,7 @@ FUNCTION void call_every_function(IN(Inputs) inputs) {
   put(depth_of_slice(20.0f * float(alpha), 64.0f, t));
   put(slice_of_depth(0.3f * float(alpha) * t, 64.0f, t));
   put(place_in_froxel(uint(20.0f * float(alpha))));
+  put(place_in_slices(camera, t * view_ray(camera, vec2(100.0f * float(alpha), 60.0f * float(phi))), 64.0f, 3.0f * t));
 }
 
 #endif

@@ -107,6 +107,54 @@ TEST(SameSurfaceError, LeavesOutPixelsThatSeeDifferentSurfaces) {
   EXPECT_TRUE(same_surface_error(x, distance, r, reference_distance, 2.1).is_dark);
 }
 
+TEST(Flicker, IsWhatTheErrorChangesBy) {
+  // Two by two pixels, one channel. The truth moves between frames; its means are 2 and 4.
+  const std::vector<float> r0{1, 1, 2, 4}, r1{6, 2, 4, 4}, seen(4, 1.0f);
+  const auto errors = [&](const std::vector<float>& r, const std::vector<float>& error) {
+    std::vector<float> x(r);
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] += error[i];
+    return error_image(x, seen, r, seen);
+  };
+  const auto flicker_of = [&](const std::vector<float>& before, const std::vector<float>& after) {
+    return flicker(errors(r0, before), errors(r1, after));
+  };
+  EXPECT_EQ(flicker_of({0, 0, 0, 0}, {0, 0, 0, 0}), 0.0) << "the method moves as the truth does";
+  EXPECT_EQ(flicker_of({0.5f, 0, -1, 0.25f}, {0.5f, 0, -1, 0.25f}), 0.0) << "what is wrong stays so";
+  EXPECT_DOUBLE_EQ(flicker_of({0.5f, -0.5f, 0.5f, -0.5f}, {-0.5f, 0.5f, -0.5f, 0.5f}), 2.0 * 0.5 / 3.0);
+  EXPECT_DOUBLE_EQ(flicker_of({0, 0, 0, 0}, {1, 0, 0, -2}), std::sqrt(5.0 / 4.0) / 3.0);
+}
+
+TEST(Flicker, IsOfThePixelsThatShowTheSameSurfaceInBothFrames) {
+  // Three pixels of two channels. The second sees another surface than the truth in the first frame, the
+  // third in the second.
+  const std::vector<float> r(6, 2.0f), x0{2, 3, 9, 9, 2, 2}, x1{2, 2, 2, 2, 9, 9}, truth{1, 2, 0};
+  const ErrorImage before = error_image(x0, std::vector<float>{1, 3, 0}, r, truth);
+  const ErrorImage after = error_image(x1, std::vector<float>{1, 2, 5}, r, truth);
+  EXPECT_DOUBLE_EQ(flicker(before, after), std::sqrt(1.0 / 2.0) / 2.0);
+  // Where the truth moves to another surface, the pixel counts.
+  const ErrorImage elsewhere = error_image(x1, std::vector<float>{7, 2, 5}, r, std::vector<float>{7, 2, 0});
+  EXPECT_EQ(flicker(before, elsewhere), flicker(before, after));
+  EXPECT_TRUE(std::isnan(flicker(before, error_image(x1, std::vector<float>{7, 2, 5}, r, truth))))
+      << "no pixel is left";
+}
+
+TEST(Flicker, IsNotRelativeToADarkReference) {
+  const std::vector<float> x{1, 2}, black(2, 0.0f), dim(2, 1e-3f), bright(2, 1.0f), seen(2, 1.0f);
+  const ErrorImage lit = error_image(x, seen, bright, seen);
+  EXPECT_TRUE(std::isnan(flicker(lit, error_image(x, seen, black, seen))));
+  EXPECT_TRUE(std::isnan(flicker(error_image(x, seen, dim, seen, 1.01e-3), lit)));
+  EXPECT_TRUE(std::isfinite(flicker(error_image(x, seen, dim, seen, 0.99e-3), lit)));
+}
+
+TEST(Flicker, RefusesNaNAndDifferentLengths) {
+  const std::vector<float> two(2, 1.0f), three(3, 1.0f), bad{1, std::numeric_limits<float>::quiet_NaN()};
+  EXPECT_THROW(error_image(bad, two, two, two), scene::Error);
+  EXPECT_THROW(error_image(two, two, bad, two), scene::Error);
+  EXPECT_THROW(error_image(two, two, three, two), scene::Error);
+  EXPECT_THROW(flicker(error_image(two, two, two, two), error_image(three, three, three, three)),
+               scene::Error);
+}
+
 TEST(SurfaceError, CountsWrongAndUndecidedPixelsOfThoseThatShowASurface) {
   using reference::Verdict;
   // Two by two pixels: right, wrong, undecided, and none that is seen.

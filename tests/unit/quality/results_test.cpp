@@ -121,6 +121,8 @@ Comparison along_a_path() {
   run.path[2].errors.airlight.rrmse = k_none;
   for (Run::Frame& frame : run.path) frame.errors.same_surface.rrmse = k_none;
   run.path[1].errors.surface = {.wrong_pixels = 1, .undecided_pixels = 2, .pixels = 3};
+  run.path[1].flicker = 0.02;
+  run.path[2].flicker = 0.04;
   run.worst_frame = 1;
   comparison.runs.resize(1);
   return comparison;
@@ -132,6 +134,8 @@ TEST(Path, HasMeanAndWorstOfWhatIsNotDark) {
   EXPECT_DOUBLE_EQ(spreads.ms.worst, 30.0);
   EXPECT_DOUBLE_EQ(spreads.rrmse.mean, 0.02);
   EXPECT_DOUBLE_EQ(spreads.rrmse.worst, 0.03);
+  EXPECT_DOUBLE_EQ(spreads.flicker.mean, 0.03) << "the first frame has none";
+  EXPECT_DOUBLE_EQ(spreads.flicker.worst, 0.04);
   EXPECT_TRUE(std::isnan(spreads.same_surface_rrmse.mean));
   EXPECT_TRUE(std::isnan(spreads.same_surface_rrmse.worst));
 }
@@ -159,6 +163,9 @@ TEST(Path, IsInResultsAndTable) {
   EXPECT_EQ(path["worst_frame"], 1);
   EXPECT_EQ(path["frame_ms"], (json{{"mean", 20.0}, {"worst", 30.0}}));
   EXPECT_TRUE(path["same_surface_rrmse"]["mean"].is_null());
+  EXPECT_TRUE(path["frames"][0]["flicker"].is_null());
+  EXPECT_EQ(path["frames"][1]["flicker"], 0.02);
+  EXPECT_EQ(path["flicker"]["worst"], 0.04);
   EXPECT_EQ(path["frames"][0]["redrawn"], (json{"shadow_map", "volume"}));
   EXPECT_EQ(path["frames"][2]["redrawn"], json::array());
   EXPECT_TRUE(path["frames"][2]["rrmse"].is_null());
@@ -167,6 +174,7 @@ TEST(Path, IsInResultsAndTable) {
   EXPECT_EQ(path["frames"][1]["pixels"], 3);
   const std::string table = results_table(along_a_path());
   EXPECT_THAT(table, HasSubstr("path: 3 frames in 3 s"));
+  EXPECT_THAT(table, testing::ContainsRegex("dark +dark +3 +4 +1\n"));
   EXPECT_THAT(table, testing::ContainsRegex("all +2 +1 +2 +25.00"));
   EXPECT_THAT(table, testing::ContainsRegex("nothing +1 +0 +0 +10.00"));
 }

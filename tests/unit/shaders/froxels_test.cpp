@@ -28,6 +28,27 @@ TEST(Froxels, DepthAndSliceAreInverse) {
   }
 }
 
+TEST(Froxels, PlacesAreThoseOfTheImageAndOfSlices) {
+  CameraBlock camera{};
+  camera.half_width = 0.8f;
+  camera.half_height = 0.5f;
+  camera.right = {0, 0, -1};
+  camera.up = {0.6f, 0.8f, 0};
+  camera.forward = {0.8f, -0.6f, 0};
+  camera.image_width = 160;
+  camera.image_height = 100;
+  for (const vec2 pixel : {vec2(0, 0), vec2(80, 50), vec2(160, 100), vec2(12.5f, 77.3f)}) {
+    for (const float depth : {0.1f, 3.0f, 40.0f}) {
+      const vec3 ray = view_ray(camera, pixel);
+      const vec3 place = place_in_slices(camera, depth / dot(ray, camera.forward) * ray, 64, 20);
+      EXPECT_NEAR(place.x, pixel.x, 1e-4f);
+      EXPECT_NEAR(place.y, pixel.y, 1e-4f);
+      EXPECT_NEAR(place.z, slice_of_depth(depth, 64, 20), 1e-4f);
+      EXPECT_EQ(place_in_slices(camera, -depth * ray, 64, 20).z, -1.0f);
+    }
+  }
+}
+
 TEST(Froxels, LookUpsFillThemEvenly) {
   EXPECT_EQ(place_in_froxel(0), vec3(0.5f));
   // Each eighth of a froxel has some of the first 64.
