@@ -40,10 +40,11 @@ double farthest_slice(const scene::View& view, const scene::Light& light, const 
 /// With a history what is lit is blended with what the frame before found. It begins anew in a frame that
 /// draws all of its own (frame::Resting::redrawn), the first of a path or one that stands alone, and for
 /// another scene, light or number of froxels: such a frame is the same as without, and a path the same
-/// whenever it is played. A light or an occluder that moves leaves ghosts. Based on: Wronski, "Volumetric
-/// Fog", SIGGRAPH 2014; Hillaire, "Physically Based and Unified Volumetric Rendering in Frostbite", SIGGRAPH
-/// 2015 (both in the course Advances in Real-Time Rendering). What deviates: shaders/media/froxel_ray.glsl,
-/// froxel_scatter.comp.
+/// whenever it is played. A light or an occluder that moves leaves ghosts.
+///
+/// Based on: Wronski, "Volumetric Fog", SIGGRAPH 2014; Hillaire, "Physically Based and Unified Volumetric
+/// Rendering in Frostbite", SIGGRAPH 2015 (both in the course Advances in Real-Time Rendering). What
+/// deviates: shaders/media/froxel_ray.glsl, froxel_scatter.comp.
 class Froxel : public frame::Airlight {
  public:
   explicit Froxel(const FroxelOptions& options);
