@@ -88,17 +88,18 @@ const Vsv::Programs& Vsv::load(const gpu::Context& context, const Variant& varia
     const std::uint32_t sum = variant.integral == VsvIntegral::riemann    ? 1
                               : variant.integral == VsvIntegral::factored ? 2
                                                                           : 0;
-    programs.integrate = frame::ScreenPass(
-        k_vsv_sun_frag,
+    programs.integrate = frame::ray_pass(
+        options_.rays, k_vsv_sun_frag,
         std::array{grid[0], grid[1], grid[2], phase, gpu::Constant(6, sum), whole_voxels, layer, looks_away});
   } else if (variant.integral == VsvIntegral::riemann) {
-    programs.integrate =
-        frame::ScreenPass(k_vsv_riemann_frag, std::array{grid[0], grid[1], grid[2], phase, whole_voxels,
-                                                         rough, layer, looks_away, reach, light_textured});
+    programs.integrate = frame::ray_pass(options_.rays, k_vsv_riemann_frag,
+                                         std::array{grid[0], grid[1], grid[2], phase, whole_voxels, rough,
+                                                    layer, looks_away, reach, light_textured});
   } else if (variant.integral == VsvIntegral::quadrature) {
-    programs.integrate = frame::ScreenPass(
-        k_vsv_quadrature_frag, std::array{grid[0], grid[1], grid[2], phase, channels, whole_voxels, layer,
-                                          looks_away, reach, light_textured, colour_rows, colour_columns});
+    programs.integrate =
+        frame::ray_pass(options_.rays, k_vsv_quadrature_frag,
+                        std::array{grid[0], grid[1], grid[2], phase, channels, whole_voxels, layer,
+                                   looks_away, reach, light_textured, colour_rows, colour_columns});
     if (variant.colour_rows > 0) {
       programs.build_table =
           gpu::Pipeline::compute(k_vsv_colour_build_comp, std::array{colour_rows, colour_columns});
@@ -112,9 +113,9 @@ const Vsv::Programs& Vsv::load(const gpu::Context& context, const Variant& varia
     const gpu::Constant factored(7, variant.integral == VsvIntegral::factored);
     programs.build_table = gpu::Pipeline::compute(
         k_vsv_table_build_comp, std::array{grid[0], grid[1], grid[2], phase, channels, rows, rough});
-    programs.integrate = frame::ScreenPass(
-        k_vsv_table_frag, std::array{grid[0], grid[1], grid[2], phase, channels, rows, direct, factored,
-                                     whole_voxels, rough, layer, looks_away});
+    programs.integrate = frame::ray_pass(options_.rays, k_vsv_table_frag,
+                                         std::array{grid[0], grid[1], grid[2], phase, channels, rows, direct,
+                                                    factored, whole_voxels, rough, layer, looks_away});
     require_table(std::int64_t{programs.table_rows} * (resolution.phi + 2) * variant.channels * 16,
                   "the table integral");
   }
@@ -183,7 +184,7 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
     });
   }
   inputs.timer.time("integrate", [&] {
-    inputs.surfaces.bind_sampler(shaders::k_surface_unit);
+    inputs.ray_surfaces().bind_sampler(shaders::k_surface_unit);
     if (programs.table_rows > 0) table_texels_.bind_sampler(shaders::k_table_unit);
     programs.integrate.run({radiance});
   });
@@ -224,7 +225,8 @@ frame::AirlightMethod vsv_method() {
                                         .cost = "none",
                                         .sweep = {"growing", "equal"}},
                                        {{"growing"}, {"equal", "the paper's"}}, &VsvOptions::phi_cells));
-  options.push_back(frame::where_option(&VsvOptions::where));
+  for (frame::Option& option : frame::options_of(&VsvOptions::rays, frame::view_rays_options()))
+    options.push_back(std::move(option));
   return frame::describe<frame::Airlight, VsvOptions>(
       "vsv", "epipolar voxelized shadow volumes", {}, std::move(options),
       [](const gpu::Context& context, const VsvOptions& vsv) { return std::make_unique<Vsv>(context, vsv); });

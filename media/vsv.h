@@ -31,7 +31,7 @@ enum class PhiCells {
 struct VsvOptions {
   VsvIntegral integral = VsvIntegral::automatic;
   PhiCells phi_cells = PhiCells::growing;
-  frame::Where where = frame::Where::pixel;
+  frame::ViewRays rays = {};
   epipolar::VolumeOptions volume = {};
 
   void validate() const { volume.validate(); }
@@ -62,7 +62,7 @@ class Vsv : public frame::Airlight {
 
   /// The options must not refuse the view.
   void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override;
-  frame::Where where() const override { return options_.where; }
+  frame::ViewRays rays() const override { return options_.rays; }
   std::map<std::string, std::int64_t> bytes() const override;
   std::vector<frame::DebugImage> debug_images(const frame::FrameInputs& inputs) override;
 

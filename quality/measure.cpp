@@ -216,6 +216,7 @@ Measurer::Measurement Measurer::measure(const VolumeChoice& volume, const Surfac
   cost.cpu_ms = median(cpu_times);
   cost.frames = static_cast<int>(times.size());
   cost.rays = staged[0].work.airlight_rays;
+  cost.view_rays = frame_.listed_rays().value_or(0);
   cost.self_error = staged[0].work.self_error;
   if (cost.rays > 0) cost.mrays_per_s = static_cast<double>(cost.rays) / (1e3 * median(tracing));
   cost.bytes = bytes_of(*shadow, *airlight);
@@ -247,6 +248,7 @@ Measurer::PathMeasurement Measurer::measure_path(
       if (is_first) {
         frames[i].redrawn = frame_.redrawn();
         cost.rays += timed.work.airlight_rays;
+        cost.view_rays += frame_.listed_rays().value_or(0);
         cost.self_error = std::max(cost.self_error, timed.work.self_error);
         tracing_ms += timed.work.airlight_ms;
         for (const auto& [name, bytes] : bytes_of(*shadow, *airlight))
@@ -290,6 +292,7 @@ Measurer::PathMeasurement Measurer::measure_path(
   }
   if (cost.rays > 0) cost.mrays_per_s = static_cast<double>(cost.rays) / (1e3 * tracing_ms);
   cost.rays /= views.size();
+  cost.view_rays /= views.size();
   return measurement;
 }
 

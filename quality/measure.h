@@ -36,9 +36,10 @@ struct Cost {
   double cpu_ms = 0.0;  ///< of the process; NaN where an image was kept from before
   int frames = 0;
   std::map<std::string, std::int64_t> bytes;
-  std::uint64_t rays = 0;    ///< 0 for a method that traces none
-  double mrays_per_s = 0.0;  ///< 0 for a method that traces none
-  double self_error = 0.0;   ///< reference::AirlightImage::self_error, of several lights the largest
+  std::uint64_t rays = 0;       ///< 0 for a method that traces none
+  double mrays_per_s = 0.0;     ///< 0 for a method that traces none
+  std::uint64_t view_rays = 0;  ///< frame::Frame::listed_rays; 0 where none are listed
+  double self_error = 0.0;      ///< reference::AirlightImage::self_error, of several lights the largest
 };
 
 /// What one frame of a path costs.

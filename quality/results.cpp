@@ -160,6 +160,7 @@ Json run_json(const Run& run, const scene::View& view) {
     json["rays"] = run.cost.rays;
     json["mrays_per_s"] = run.cost.mrays_per_s;
   }
+  if (run.cost.view_rays > 0) json["view_rays"] = run.cost.view_rays;
   if (run.cost.self_error > 0.0) json["self_error"] = run.cost.self_error;
   if (run.march_ratio > 0.0) json["march_ratio"] = run.march_ratio;
   if (!run.path.empty()) json["path"] = path_json(run);
