@@ -14,7 +14,7 @@ layout(binding = k_sample_depths_unit) uniform sampler2D samples_seen;  // sampl
 // Of the nearest of three samples in line, by how much the middle one is beside the mean of the others.
 const float k_break = 0.005;
 // Of the largest of three samples' airlight: the same.
-const float k_bend = 0.01;
+const float k_bend = 0.003;
 
 vec2 seen_at(uint sample_number, uint slice) {
   return texelFetch(samples_seen, ivec2(min(sample_number, uint(textureSize(samples_seen, 0).x) - 1u), slice), 0).rg;
