@@ -27,10 +27,10 @@ struct ListedRays {
 /// both sides of breaks among them, and the others interpolated. Pixels that no sample serves are asked
 /// themselves. All rays to be asked stand in one list.
 /// Based on: Engelhardt and Dachsbacher, "Epipolar Sampling for Shadows and Crepuscular Rays in Participating
-/// Media with Single Scattering", I3D 2010; the list of pixels that are asked themselves after Yusov,
-/// "Practical Implementation of Light Scattering Effects Using Epipolar Sampling and 1D Min/Max Binary
-/// Trees", GDC 2013. Deviations: no samples are added where airlight without shadows bends; around a lamp it
-/// is interpolated times sin α instead.
+/// Media with Single Scattering", I3D 2010; samples added where airlight without shadows bends, and pixels
+/// that are asked themselves, after Yusov, "Practical Implementation of Light Scattering Effects Using
+/// Epipolar Sampling and 1D Min/Max Binary Trees", GDC 2013. Deviation: about a lamp what is interpolated is
+/// airlight times sin α, which has no peak there.
 class EpipolarSamples {
  public:
   /// @param rays Where::epipolar

@@ -7,7 +7,8 @@ std::vector<Option> view_rays_options() {
       word_option<ViewRays, Where>(
           {.name = "where",
            .meaning = "for which view rays airlight is computed",
-           .quality = "half and quarter lose shadows' edges, and what thin things hide; epipolar loses edges",
+           .quality = "half and quarter lose shadows' edges, and what thin things hide; epipolar softens "
+                      "edges of shafts",
            .cost = "half asks a quarter of the rays, quarter a sixteenth, epipolar more where depth breaks",
            .sweep = {"pixel", "half", "quarter", "epipolar"},
            .is_common = true},
@@ -22,7 +23,7 @@ std::vector<Option> view_rays_options() {
                     .quality = "too few soften shafts' edges",
                     .cost = "rays",
                     .sweep = {"256", "512", "1024"}},
-                   Counts{.least = 16, .most = 8192}, &ViewRays::slices),
+                   Counts{.least = 16, .most = 4096}, &ViewRays::slices),
       count_option(
           {.name = "epipolar-samples",
            .meaning =
@@ -30,7 +31,7 @@ std::vector<Option> view_rays_options() {
            .quality = "too few leave pixels without a sample beside them",
            .cost = "none to speak of",
            .sweep = {"128", "256", "512"}},
-          Counts{.least = 32, .most = 8192, .multiple_of = 16}, &ViewRays::samples)};
+          Counts{.least = 32, .most = 4096, .multiple_of = 16}, &ViewRays::samples)};
 }
 
 }  // namespace airlight::frame

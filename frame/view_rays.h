@@ -17,7 +17,7 @@ enum class Where {
 
 struct ViewRays {
   Where where = Where::pixel;
-  // Of Where::epipolar, without meaning otherwise:
+  // Of Where::epipolar; the others do not read them:
   int slices = 512;   ///< epipolar lines
   int samples = 256;  ///< on each of them; a multiple of 16
 

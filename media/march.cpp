@@ -35,7 +35,7 @@ std::optional<frame::Refusal> MarchOptions::refusal(const scene::View& view) con
 }
 
 void March::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) {
-  assert(!options_.refusal(inputs.view));
+  assert(!options_.refusal(inputs.view) && options_.rays.are_listed() == inputs.listed.has_value());
   const scene::View& view = inputs.view;
   const scene::Light& light = inputs.light();
   const gpu::Texture& shadow_map = inputs.shadow_map(0.0);

@@ -143,7 +143,7 @@ std::optional<frame::Refusal> VsvOptions::refusal(const scene::View& view) const
 }
 
 void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) {
-  assert(!options_.refusal(inputs.view));
+  assert(!options_.refusal(inputs.view) && options_.rays.are_listed() == inputs.listed.has_value());
   const VsvIntegral integral = options_.used_integral(inputs.view);
   const bool is_sun = scene::is_sun(inputs.light());
   const bool has_table = !is_sun && (integral == VsvIntegral::table || integral == VsvIntegral::factored);

@@ -58,6 +58,7 @@ class DebugProbe : public frame::Airlight {
       images_.push_back(std::move(image));
     }
   }
+  frame::ViewRays rays() const override { return airlight_.rays(); }
   std::vector<frame::DebugImage> take_images() { return std::move(images_); }
 
  private:

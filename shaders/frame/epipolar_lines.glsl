@@ -143,7 +143,7 @@ FUNCTION SeenPlane seen_plane(IN(CameraBlock) camera, IN(vec2) place, IN(vec3) n
   return plane;
 }
 
-FUNCTION float plane_at(IN(SeenPlane) plane, IN(vec2) apart) { return plane.at + dot(plane.slope, apart); }
+FUNCTION float inverse_depth_at(IN(SeenPlane) plane, IN(vec2) apart) { return plane.at + dot(plane.slope, apart); }
 
 // What airlight is divided by before it is interpolated: it grows as 1/sin(α) about a lamp in view, with α no less than a quarter of a
 // pixel. 1 of a sun.

@@ -17,7 +17,7 @@ void main() {
   vec2 middle = vec2(pixel) + 0.5;
   SeenPlane plane = seen_plane(camera, middle, surface.xyz, surface.w);
   // The plane of what is seen edge-on leads anywhere.
-  float inverse_depth = clamp(plane_at(plane, place - middle), 0.5 * plane.at, 2.0 * plane.at);
+  float inverse_depth = clamp(inverse_depth_at(plane, place - middle), 0.5 * plane.at, 2.0 * plane.at);
   vec3 ray = view_ray(camera, place);
   float distance = inverse_depth > 0.0 ? 1.0 / (inverse_depth * dot(ray, camera.forward)) : 0.0;
   seen = vec2(inverse_depth, empty_airlight(ray, distance));

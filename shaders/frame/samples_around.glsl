@@ -35,7 +35,7 @@ SamplesAround samples_around(uint slices, uint samples, vec2 place, vec4 surface
       float of_sample = j == 0u ? 1.0 - (along - first_sample) : along - first_sample;
       around.texels[2u * i + j] = ivec2(sample_number, slice);
       around.shares[2u * i + j] = of_slice * of_sample;
-      around.depths[2u * i + j] = plane_at(plane, sample_place(line, sample_number, samples) - place);
+      around.depths[2u * i + j] = inverse_depth_at(plane, sample_place(line, sample_number, samples) - place);
     }
   }
   return around;

@@ -43,6 +43,12 @@ Rendered render_vsv(const scene::Geometry& geometry, const scene::View& view, co
   return render(frame, view, vsv);
 }
 
+Rendered render_march(const scene::Geometry& geometry, const scene::View& view, const ViewRays& rays) {
+  frame::Frame frame(tests::gpu_context(), geometry, 512);
+  media::March march({.steps = 64, .rays = rays});
+  return render(frame, view, march);
+}
+
 scene::View view_of_lights(std::vector<scene::Light> lights) {
   scene::View view;
   view.camera.eye = {0, 0, 6};
@@ -77,12 +83,12 @@ std::vector<Placed> lights() {
           {"spot", spot}};
 }
 
-/// A plate before a far wall.
-scene::Geometry plate_before_wall() {
+/// A plate above a floor that reaches far.
+scene::Geometry plate_above_floor() {
   scene::Geometry geometry;
   tests::add_triangle(geometry, {-3, -4, 4}, {0.7f, -4, 4}, {-0.6f, 4, 4});
   tests::add_triangle(geometry, {-3, -4, 4}, {-0.6f, 4, 4}, {-3, 4, 4});
-  tests::add_quad(geometry, {-40, -40, -20}, {80, 0, 0}, {0, 80, 0});
+  tests::add_quad(geometry, {-100, -8, 20}, {200, 0, 0}, {0, 0, -200});
   return geometry;
 }
 
@@ -93,7 +99,7 @@ TEST(EpipolarSamples, ServeWhatIsSmooth) {
     const Rendered pixels = render_vsv({}, view, {});
     const Rendered samples = render_vsv({}, view, k_samples);
     EXPECT_EQ(pixels.rays, 0u);
-    EXPECT_LT(samples.rays, 117u * 80u / 3u) << placed.name;
+    EXPECT_LT(samples.rays, 117u * 80u / 2u) << placed.name;
     // Samples are marked until what lies between is within 0.3 % of linear; the spot's cone, which that does
     // not know of, is sampled at every fourth of them, three pixels apart.
     EXPECT_LT(tests::error_of(samples.airlight, pixels.airlight).rrmse, placed.light.cone ? 0.02 : 0.003)
@@ -103,7 +109,7 @@ TEST(EpipolarSamples, ServeWhatIsSmooth) {
 
 // Both sides of a break of depth are asked, and take from their own.
 TEST(EpipolarSamples, DoNotMixWhatIsNearWithWhatIsFar) {
-  const scene::Geometry geometry = plate_before_wall();
+  const scene::Geometry geometry = plate_above_floor();
   for (const Placed& placed : lights()) {
     const scene::View view = view_of_lights({placed.light});
     const Image pixels = render_vsv(geometry, view, {}).airlight;
@@ -120,14 +126,12 @@ TEST(EpipolarSamples, KeepShafts) {
   const Image pixels = render_vsv(scene.geometry, view, {}).airlight;
   const Image samples = render_vsv(scene.geometry, view, k_samples).airlight;
   // Shafts' edges, softened between slices up to 3.5 pixels apart.
-  EXPECT_LT(tests::error_of(samples, pixels).rrmse, 0.01);
-  const auto march = [&](const ViewRays& rays) {
-    frame::Frame frame(tests::gpu_context(), scene.geometry, 512);
-    media::March march({.steps = 64, .rays = rays});
-    return render(frame, view, march).airlight;
+  EXPECT_LT(tests::error_of(samples, pixels).rrmse, 0.02);
+  const auto marched = [&](const ViewRays& rays) {
+    return render_march(scene.geometry, view, rays).airlight;
   };
   // And march's bands, which differ from ray to ray.
-  EXPECT_LT(tests::error_of(march(k_samples), march({})).rrmse, 0.02);
+  EXPECT_LT(tests::error_of(marched(k_samples), marched({})).rrmse, 0.02);
 }
 
 // Bars as thin as a pixel before a bright sky: what a coarse image loses.
@@ -145,8 +149,8 @@ TEST(EpipolarSamples, KeepThinBars) {
   EXPECT_LT(tests::error_of(samples.airlight, pixels).rrmse, coarse / 5.0);
 }
 
-// Each pixel sees a square of its own depth: but for those that a sample lies in they are asked themselves,
-// and get what they get without samples.
+// Each pixel sees a square of its own depth: but for those beside a sample that sees as deep a one they are
+// asked themselves, and get what they get without samples.
 TEST(EpipolarSamples, PixelsThatNoneServesAreAskedThemselves) {
   scene::View view = view_of_lights({scene::point_light("", {0.83, 0.41, 0}, glm::vec3(10.0f))});
   view.size = {96, 64};
@@ -167,13 +171,13 @@ TEST(EpipolarSamples, PixelsThatNoneServesAreAskedThemselves) {
     }
   }
   const ViewRays few = {.where = Where::epipolar, .slices = 16, .samples = 32};
-  const Image pixels = render_vsv(geometry, view, {}).airlight;
-  const Rendered samples = render_vsv(geometry, view, few);
+  const Image pixels = render_march(geometry, view, {}).airlight;
+  const Rendered samples = render_march(geometry, view, few);
   const auto count = static_cast<std::uint32_t>(pixels.size());
-  EXPECT_GE(samples.rays, count);
+  EXPECT_GT(samples.rays, count * 9 / 10);
   std::uint32_t same = 0;
   for (std::size_t i = 0; i < pixels.size(); ++i) same += pixels[i] == samples.airlight[i];
-  EXPECT_GE(same, count - 16u * 32u);
+  EXPECT_GE(same, samples.rays - 16u * 32u);
 }
 
 // In which order the list is made is left to chance.
@@ -192,7 +196,7 @@ TEST(EpipolarSamples, DoNotDependOnTheOrderOfTheList) {
 
 // Lights have lists of their own, one after the other, in one frame that has drawn other images before.
 TEST(EpipolarSamples, OfLightsAddUp) {
-  const scene::Geometry geometry = plate_before_wall();
+  const scene::Geometry geometry = plate_above_floor();
   const std::vector<Placed> all = lights();
   frame::Frame frame(tests::gpu_context(), geometry, 512);
   media::Vsv vsv = make_vsv(k_samples), of_pixels = make_vsv({});

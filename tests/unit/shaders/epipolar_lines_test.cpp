@@ -86,11 +86,15 @@ TEST(EpipolarLines, SlicesGoThroughTheEpipoleAndAreNoFartherApartThanTheirEnds) 
     const EpipolarLines lines = epipolar_lines(camera(), glm::normalize(c.axis));
     const float step = lines.extent / slice_intervals(lines, k_slices);
     EXPECT_LE(lines.extent, border_length(lines.size));
-    if (c.is_inside) EXPECT_EQ(lines.extent, border_length(lines.size));
+    if (c.is_inside) {
+      EXPECT_EQ(lines.extent, border_length(lines.size));
+    }
     vec2 last = slice_line(lines, k_slices - 1, k_slices).to;
     for (uint slice = 0; slice < k_slices; ++slice) {
       const EpipolarLine line = slice_line(lines, slice, k_slices);
-      if (slice > 0 || c.is_inside) EXPECT_LE(glm::distance(line.to, last), step * 1.001f) << slice;
+      if (slice > 0 || c.is_inside) {
+        EXPECT_LE(glm::distance(line.to, last), step * 1.001f) << slice;
+      }
       last = line.to;
       if (glm::distance(line.from, line.to) < 1.0f) continue;  // cuts a corner of the image
       const vec2 way = line.to - line.from;
@@ -101,7 +105,9 @@ TEST(EpipolarLines, SlicesGoThroughTheEpipoleAndAreNoFartherApartThanTheirEnds) 
                 1e-4f * glm::length(way) * (glm::length(vec2(epipole)) + 200.0f * epipole.z))
           << slice;
       // And the first end is the one next to it.
-      if (epipole.z > 0.0f) EXPECT_GE(glm::dot(way, -towards), -1e-2f) << slice;
+      if (epipole.z > 0.0f) {
+        EXPECT_GE(glm::dot(way, -towards), -1e-2f) << slice;
+      }
     }
   }
 }
@@ -114,9 +120,9 @@ TEST(EpipolarLines, ThePlaneThatIsSeenIsLinearInTheImage) {
   const SeenPlane plane = seen_plane(block, place, {0, 1, 0}, distance_at(place));
   for (const vec2 other : {vec2(3, 60), vec2(190, 99), vec2(120, 80)}) {
     const float depth = distance_at(other) * glm::dot(view_ray(block, other), block.forward);
-    EXPECT_NEAR(plane_at(plane, other - place), 1.0f / depth, 1e-5f / depth);
+    EXPECT_NEAR(inverse_depth_at(plane, other - place), 1.0f / depth, 1e-5f / depth);
   }
-  EXPECT_EQ(plane_at(seen_plane(block, place, {0, 0, 0}, 0), {40, 30}), 0.0f);
+  EXPECT_EQ(inverse_depth_at(seen_plane(block, place, {0, 0, 0}, 0), {40, 30}), 0.0f);
 }
 
 }  // namespace
