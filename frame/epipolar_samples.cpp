@@ -1,6 +1,5 @@
 #include "frame/epipolar_samples.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 

@@ -6,10 +6,10 @@
 const float k_alike = 0.03;
 
 struct SamplesAround {
-  ivec2 texels[4];  // sample and slice
-  float shares[4];  // of linear interpolation, along slices and between them
-  float depths[4];  // 1/depth of the pixel's plane there, …
-  float depth;      // … and where the pixel sees it
+  ivec2 texels[4];     // sample and slice
+  float shares[4];     // of linear interpolation, along slices and between them
+  float depths[4];     // 1/depth of the pixel's plane there, …
+  float depth;         // … and where the pixel sees it
   float from_epipole;  // [pixels]; of parallel lines 1e30
 };
 

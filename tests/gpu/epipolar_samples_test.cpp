@@ -1,8 +1,6 @@
 #include "frame/epipolar_samples.h"
 
-#include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include <gtest/gtest.h>
 
