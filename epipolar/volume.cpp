@@ -10,6 +10,7 @@
 #include "scene/error.h"
 
 #include "spirv/epipolar/phi_range_comp.h"
+#include "spirv/epipolar/phi_range_listed_comp.h"
 #include "spirv/epipolar/plane_cells_comp.h"
 #include "spirv/epipolar/plane_range_comp.h"
 #include "spirv/epipolar/planes_comp.h"
@@ -265,9 +266,16 @@ shaders::EpipolarBlock ShadowVolume::find_ranges(const frame::FrameInputs& input
       if (!shaders::is_sun(block))
         ranges.assign(ranges.size(), glm::vec2(0.0f, static_cast<float>(shaders::k_half_turn)));
     } else {
-      inputs.surfaces.bind_sampler(shaders::k_surface_unit);
-      const glm::uvec2 size = inputs.view.size;
-      phi_range_.dispatch({size.x, (size.y + 31) / 32, 1});
+      inputs.ray_surfaces().bind_sampler(shaders::k_surface_unit);
+      if (inputs.listed) {
+        if (!phi_range_listed_)
+          phi_range_listed_ =
+              gpu::Pipeline::compute(k_phi_range_listed_comp, resolution_constants(options_.resolution));
+        phi_range_listed_->dispatch({(inputs.listed->most + 31) / 32, 1, 1});
+      } else {
+        const glm::uvec2 size = inputs.view.size;
+        phi_range_.dispatch({size.x, (size.y + 31) / 32, 1});
+      }
     }
     grid_.box_ranges().write(ranges.data(), planes * 8);
     grid_.bind_box_ranges();

@@ -129,6 +129,7 @@ class ShadowVolume {
   std::optional<Source> filled_;  ///< of the bits
   bool rests_ = false;
   gpu::Pipeline planes_, phi_range_, plane_cells_, plane_range_, scatter_;
+  std::optional<gpu::Pipeline> phi_range_listed_;  ///< made when first needed
   std::optional<PopulateShadowMap> populate_shadow_map_;
   std::optional<PopulateConservative> populate_conservative_;
   std::optional<PopulateScreenSpace> populate_screen_space_;

@@ -13,9 +13,11 @@ namespace airlight::shaders {
 #include "frame/light.glsl"
 #include "frame/light_texture.glsl"
 #include "frame/medium.glsl"
+#include "frame/ray_list_block.glsl"
 #include "frame/shadow_cube.glsl"
 #include "frame/shadow_plane.glsl"
-static_assert(sizeof(CameraBlock) == 80 && sizeof(LightBlock) == 128 && sizeof(MediumBlock) == 48,
+static_assert(sizeof(CameraBlock) == 80 && sizeof(LightBlock) == 128 && sizeof(MediumBlock) == 48 &&
+                  sizeof(RayListBlock) == 32,
               "must match std140");
 }  // namespace airlight::shaders
 

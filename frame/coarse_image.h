@@ -3,21 +3,14 @@
 #include <cstdint>
 
 #include "frame/gbuffer.h"
-#include "frame/option.h"
 #include "frame/scene_buffers.h"
 #include "frame/screen_pass.h"
+#include "frame/view_rays.h"
 #include "gpu/buffer.h"
 #include "gpu/texture.h"
 #include "scene/scene.h"
 
 namespace airlight::frame {
-
-/// For which view rays airlight is computed.
-enum class Where {
-  pixel,    ///< of each pixel
-  half,     ///< of an image of half the width and height
-  quarter,  ///< of a quarter of them
-};
 
 /// An image of fewer pixels in which airlight is computed, and from which each pixel takes that of its four
 /// neighbours whose surfaces are about as far as its own.
@@ -28,7 +21,7 @@ enum class Where {
 /// the guide, as engines do it.
 class CoarseImage {
  public:
-  /// @param where not `pixel`
+  /// @param where `half` or `quarter`
   explicit CoarseImage(Where where);
 
   /// The view of the last `begin` in fewer pixels. Its image may reach a part of a pixel farther to the
@@ -57,21 +50,5 @@ class CoarseImage {
 
 /// The size of the coarse image.
 glm::ivec2 coarse_size(glm::ivec2 size, Where where);
-
-/// The option `where` of a method whose options have a field for it.
-template <class Options>
-Option where_option(Where Options::*field) {
-  return word_option<Options, Where>(
-      {.name = "where",
-       .meaning = "for which view rays airlight is computed",
-       .quality = "half and quarter lose shadows' edges, and what thin things hide",
-       .cost = "half asks a quarter of the rays, quarter a sixteenth",
-       .sweep = {"pixel", "half", "quarter"},
-       .is_common = true},
-      {{"pixel", "each pixel's"},
-       {"half", "those of an image of half the width and height; pixels take from those as deep as they"},
-       {"quarter", "the same of a quarter"}},
-      field);
-}
 
 }  // namespace airlight::frame

@@ -153,9 +153,14 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
     gbuffer_->draw(scene, camera, scene.triangles_at(camera.eye, distance));
   });
 
-  const Where where = airlight.where();
-  coarse_image_ = where == Where::pixel ? nullptr : &coarse_images_.try_emplace(where, where).first->second;
-  if (coarse_image_) {
+  const ViewRays rays = airlight.rays();
+  coarse_image_ = nullptr;
+  samples_ = nullptr;
+  if (rays.are_listed()) {
+    samples_ = &epipolar_samples_.try_emplace(rays, rays).first->second;
+    samples_->begin(context_.limits(), view);
+  } else if (rays.where != Where::pixel) {
+    coarse_image_ = &coarse_images_.try_emplace(rays.where, rays.where).first->second;
     timer.time("surfaces", [&] { coarse_image_->begin(view, *gbuffer_, scene, near); });
     camera_block_.bind_uniform(shaders::k_camera_block);
   }
@@ -197,6 +202,12 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
       airlight.integrate(inputs(coarse_image_->view(), coarse_image_->surfaces()), coarse_image_->airlight());
       camera_block_.bind_uniform(shaders::k_camera_block);
       timer.time("upsample", [&] { coarse_image_->upsample(gbuffer_->surfaces(), airlight_of(i)); });
+    } else if (samples_) {
+      timer.time("rays", [&] { samples_->list_rays(light, *gbuffer_, scene); });
+      FrameInputs of_list = of_pixels;
+      of_list.listed.emplace(samples_->listed());
+      airlight.integrate(of_list, samples_->airlight());
+      timer.time("upsample", [&] { samples_->upsample(gbuffer_->surfaces(), airlight_of(i)); });
     } else {
       airlight.integrate(of_pixels, airlight_of(i));
     }
@@ -234,7 +245,13 @@ void Frame::composite(std::size_t light, bool adds) {
 std::map<std::string, std::int64_t> Frame::bytes() const {
   std::map<std::string, std::int64_t> bytes = resources_.bytes();
   if (coarse_image_) bytes["coarse_image"] = coarse_image_->bytes();
+  if (samples_) bytes["epipolar_samples"] = samples_->bytes();
   return bytes;
+}
+
+std::optional<std::uint32_t> Frame::listed_rays() const {
+  if (!samples_) return {};
+  return samples_->listed().count();
 }
 
 FrameImages Frame::read() const {
@@ -266,6 +283,8 @@ FrameImages Frame::take() {
   gbuffer_.reset();
   coarse_image_ = nullptr;
   coarse_images_.clear();
+  samples_ = nullptr;
+  epipolar_samples_.clear();
   images.lights = lights_;
   images.is_skipped = is_skipped_;
   for (gpu::Texture& texture : airlight_of_light_) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "frame/coarse_image.h"
+#include "frame/epipolar_samples.h"
 #include "frame/gbuffer.h"
 #include "frame/methods.h"
 #include "frame/resources.h"
@@ -61,6 +63,10 @@ class Frame {
   /// As `read`, and frees each image once it is read: large ones are never held twice.
   FrameImages take();
 
+  /// View rays along which the airlight of the last frame's last light was asked for, where they were listed
+  /// (EpipolarSamples); none otherwise. Waits for the frame.
+  std::optional<std::uint32_t> listed_rays() const;
+
   /// GPU memory of what the last frame used beside its methods' own, by name.
   std::map<std::string, std::int64_t> bytes() const;
 
@@ -80,7 +86,9 @@ class Frame {
 
   std::optional<GBuffer> gbuffer_;
   std::map<Where, CoarseImage> coarse_images_;  ///< each stays, with its program, when methods take turns
-  CoarseImage* coarse_image_ = nullptr;         ///< that of the last frame, if any
+  std::map<ViewRays, EpipolarSamples> epipolar_samples_;  ///< the same
+  CoarseImage* coarse_image_ = nullptr;                   ///< that of the last frame, if any
+  EpipolarSamples* samples_ = nullptr;                    ///< the same
   std::vector<std::string> lights_;
   std::vector<bool> is_skipped_;
   std::vector<gpu::Texture> visibility_;         ///< one a light

@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "frame/coarse_image.h"
+#include "frame/epipolar_samples.h"
 #include "frame/resources.h"
+#include "frame/view_rays.h"
 #include "gpu/context.h"
 #include "gpu/texture.h"
 #include "gpu/timer.h"
@@ -27,6 +29,15 @@ struct FrameInputs {
                                   ///< [m]; 0 for none
   Resources& resources;
   gpu::StageTimer& timer;
+  std::optional<ListedRays> listed = {};  ///< airlight is asked for along these rays, not along the pixels'
+
+  /// Of the rays along which airlight is asked for.
+  const gpu::Texture& ray_surfaces() const { return listed ? listed->surfaces : surfaces; }
+
+  /// How many these are. Waits for the GPU where they are listed.
+  double ray_count() const {
+    return listed ? listed->count() : static_cast<double>(view.size.x) * view.size.y;
+  }
 
   const scene::Light& light() const { return view.lights[light_index]; }
   const scene::Geometry& geometry() const { return resources.geometry(); }
@@ -87,11 +98,13 @@ class Airlight {
   virtual ~Airlight() = default;
 
   /// Writes the light scattered once towards the eye along each view ray, RGB [W/(m² sr)]. Times its stages.
-  /// @param radiance rgba32f, of the image's size
+  /// @param radiance rgba32f, of the size of the image of their surfaces; of listed rays it need be written
+  /// where these are
   virtual void integrate(const FrameInputs& inputs, const gpu::Texture& radiance) = 0;
 
-  /// Of which pixels `integrate` is asked: its inputs and its image are then those of a coarse image.
-  virtual Where where() const { return Where::pixel; }
+  /// Along which rays `integrate` is asked. Its inputs and its image are then those of a coarse image, or its
+  /// inputs list rays.
+  virtual ViewRays rays() const { return {}; }
 
   /// As of a SurfaceShadow.
   virtual bool sees_every_light() const { return false; }

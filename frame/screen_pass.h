@@ -4,11 +4,18 @@
 #include <span>
 #include <vector>
 
+#include "frame/view_rays.h"
 #include "gpu/framebuffer.h"
 #include "gpu/handle.h"
 #include "gpu/pipeline.h"
 
 namespace airlight::frame {
+
+/// Which texels a pass writes.
+enum class Texels {
+  all,     ///< of its images
+  listed,  ///< those of the rays whose list is bound (ListedRays)
+};
 
 /// A pass over the pixels of an image: one triangle that covers them, and a fragment shader.
 ///
@@ -22,7 +29,7 @@ class ScreenPass {
   /// @param blend    how its outputs join what the images hold
   /// @throws scene::Error as gpu::Pipeline
   explicit ScreenPass(std::span<const std::uint32_t> fragment, std::span<const gpu::Constant> constants = {},
-                      gpu::Blend blend = gpu::Blend::replace);
+                      gpu::Blend blend = gpu::Blend::replace, Texels texels = Texels::all);
 
   /// Writes images of one size, in the order of the shader's outputs.
   void run(const std::vector<gpu::Attachment>& images) const;
@@ -31,8 +38,14 @@ class ScreenPass {
   const gpu::Pipeline& pipeline() const { return pipeline_; }
 
  private:
+  Texels texels_ = Texels::all;
   gpu::Pipeline pipeline_;
   gpu::Handle<gpu::delete_vertex_array> no_vertices_;
 };
+
+/// A pass over an image of view rays.
+/// @param fragment asks shaders/frame/ray_place.glsl where they are
+ScreenPass ray_pass(const ViewRays& rays, std::span<const std::uint32_t> fragment,
+                    std::span<const gpu::Constant> constants);
 
 }  // namespace airlight::frame

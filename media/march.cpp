@@ -16,18 +16,26 @@ const frame::ScreenPass& March::load(const Variant& variant) {
   const bool by_angle = options_.spacing == MarchSpacing::angle;
   const auto jitter = static_cast<std::uint32_t>(options_.jitter);
   return passes_
-      .emplace(variant, frame::ScreenPass(
-                            k_march_frag,
-                            std::array{gpu::Constant(3, variant.phase), gpu::Constant(9, variant.rough),
-                                       gpu::Constant(10, variant.layer), gpu::Constant(12, variant.reach),
-                                       gpu::Constant(13, variant.light_textured),
-                                       gpu::Constant(16, variant.plane), gpu::Constant(18, variant.sun),
-                                       gpu::Constant(19, by_angle), gpu::Constant(20, jitter)}))
+      .emplace(variant,
+               frame::ray_pass(options_.rays, k_march_frag,
+                               std::array{gpu::Constant(3, variant.phase), gpu::Constant(9, variant.rough),
+                                          gpu::Constant(10, variant.layer), gpu::Constant(12, variant.reach),
+                                          gpu::Constant(13, variant.light_textured),
+                                          gpu::Constant(16, variant.plane), gpu::Constant(18, variant.sun),
+                                          gpu::Constant(19, by_angle), gpu::Constant(20, jitter)}))
       .first->second;
 }
 
+std::optional<frame::Refusal> MarchOptions::refusal(const scene::View& view) const {
+  if (auto narrow = narrow_lobe(view.medium)) return narrow;
+  if (jitter == MarchJitter::gathered && rays.are_listed())
+    return frame::Refusal{"jitter=gathered", "it cannot gather neighbours of rays on epipolar lines",
+                          "use jitter=interleaved or off, or another where than epipolar"};
+  return {};
+}
+
 void March::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) {
-  assert(!options_.refusal(inputs.view));
+  assert(!options_.refusal(inputs.view) && options_.rays.are_listed() == inputs.listed.has_value());
   const scene::View& view = inputs.view;
   const scene::Light& light = inputs.light();
   const gpu::Texture& shadow_map = inputs.shadow_map(0.0);
@@ -53,7 +61,7 @@ void March::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radi
     scattered_ = gpu::Texture(radiance.format(), radiance.size());
   inputs.timer.time("integrate", [&] {
     space_.bind_uniform(shaders::k_space_block);
-    inputs.surfaces.bind_sampler(shaders::k_surface_unit);
+    inputs.ray_surfaces().bind_sampler(shaders::k_surface_unit);
     shadow_map.bind_sampler(shaders::k_shadow_map_unit);
     if (light_texture) light_texture->bind_sampler(shaders::k_light_texture_unit);
     pass.run({gather_ ? scattered_ : radiance});
@@ -69,38 +77,40 @@ std::map<std::string, std::int64_t> March::bytes() const {
 }
 
 std::map<std::string, double> March::counters(const frame::FrameInputs& inputs) {
-  return {{"look_ups", static_cast<double>(options_.steps) * inputs.view.size.x * inputs.view.size.y}};
+  return {{"look_ups", options_.steps * inputs.ray_count()}};
 }
 
 frame::AirlightMethod march_method() {
+  std::vector<frame::Option> options = {
+      frame::count_option({.name = "steps",
+                           .meaning = "look-ups a view ray",
+                           .quality = "too few show as bands across shafts",
+                           .cost = "integrate",
+                           .sweep = {"8", "16", "32", "64", "128", "256", "512"}},
+                          frame::Counts{.least = 8, .most = 512}, &MarchOptions::steps),
+      frame::word_option(
+          {.name = "spacing",
+           .meaning = "how a lamp's view rays are cut into steps; a sun's are by distance",
+           .quality = "angle follows the light near the lamp, distance shadows far from it",
+           .cost = "none",
+           .sweep = {"distance", "angle"}},
+          {{"distance", "equal in the distance from the eye"}, {"angle", "equal in the angle at the light"}},
+          &MarchOptions::spacing),
+      frame::word_option(
+          {.name = "jitter",
+           .meaning = "where in its step a look-up lies",
+           .quality = "interleaved turns bands into a pattern of 4 x 4 pixels, gathered softens both",
+           .cost = "gathered takes a pass over the image",
+           .sweep = {"off", "interleaved", "gathered"}},
+          {{"off", "in the middle"},
+           {"interleaved", "elsewhere for each of 4 x 4 pixels"},
+           {"gathered", "so, and then the mean of such pixels of one surface"}},
+          &MarchOptions::jitter)};
+  for (frame::Option& option : frame::options_of(&MarchOptions::rays, frame::view_rays_options()))
+    options.push_back(std::move(option));
   return frame::describe<frame::Airlight, MarchOptions>(
-      "march", "look-ups of the shadow map along each view ray", {},
-      {frame::count_option({.name = "steps",
-                            .meaning = "look-ups a view ray",
-                            .quality = "too few show as bands across shafts",
-                            .cost = "integrate",
-                            .sweep = {"8", "16", "32", "64", "128", "256", "512"}},
-                           frame::Counts{.least = 8, .most = 512}, &MarchOptions::steps),
-       frame::word_option(
-           {.name = "spacing",
-            .meaning = "how a lamp's view rays are cut into steps; a sun's are by distance",
-            .quality = "angle follows the light near the lamp, distance shadows far from it",
-            .cost = "none",
-            .sweep = {"distance", "angle"}},
-           {{"distance", "equal in the distance from the eye"}, {"angle", "equal in the angle at the light"}},
-           &MarchOptions::spacing),
-       frame::word_option(
-           {.name = "jitter",
-            .meaning = "where in its step a look-up lies",
-            .quality = "interleaved turns bands into a pattern of 4 x 4 pixels, gathered softens both",
-            .cost = "gathered takes a pass over the image",
-            .sweep = {"off", "interleaved", "gathered"}},
-           {{"off", "in the middle"},
-            {"interleaved", "elsewhere for each of 4 x 4 pixels"},
-            {"gathered", "so, and then the mean of such pixels of one surface"}},
-           &MarchOptions::jitter),
-       frame::where_option(&MarchOptions::where)},
-      [](const gpu::Context&, const MarchOptions& options) { return std::make_unique<March>(options); });
+      "march", "look-ups of the shadow map along each view ray", {}, std::move(options),
+      [](const gpu::Context&, const MarchOptions& march) { return std::make_unique<March>(march); });
 }
 
 }  // namespace airlight::media

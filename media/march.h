@@ -7,6 +7,7 @@
 
 #include "frame/method.h"
 #include "frame/screen_pass.h"
+#include "frame/view_rays.h"
 #include "gpu/buffer.h"
 #include "gpu/texture.h"
 #include "media/lighting.h"
@@ -30,11 +31,12 @@ struct MarchOptions {
   int steps = 32;
   MarchSpacing spacing = MarchSpacing::distance;
   MarchJitter jitter = MarchJitter::off;
-  frame::Where where = frame::Where::pixel;
+  frame::ViewRays rays = {};
 
   bool needs_shadow_map() const { return true; }
-  /// A phase function whose lobe is too narrow.
-  std::optional<frame::Refusal> refusal(const scene::View& view) const { return narrow_lobe(view.medium); }
+  /// A phase function whose lobe is too narrow. And a mean over neighbours where rays are listed, which have
+  /// none.
+  std::optional<frame::Refusal> refusal(const scene::View& view) const;
 };
 
 /// `march`: airlight by look-ups of the shadow map along each view ray.
@@ -48,7 +50,7 @@ class March : public frame::Airlight {
 
   /// The options must not refuse the view.
   void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override;
-  frame::Where where() const override { return options_.where; }
+  frame::ViewRays rays() const override { return options_.rays; }
   std::map<std::string, std::int64_t> bytes() const override;
   /// "look_ups" of the shadow map.
   std::map<std::string, double> counters(const frame::FrameInputs& inputs) override;

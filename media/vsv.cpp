@@ -91,18 +91,18 @@ const Vsv::Programs& Vsv::load(const gpu::Context& context, const Variant& varia
     const std::uint32_t sum = variant.integral == VsvIntegral::riemann    ? 1
                               : variant.integral == VsvIntegral::factored ? 2
                                                                           : 0;
-    programs.integrate =
-        frame::ScreenPass(k_vsv_sun_frag, std::array{grid[0], grid[1], grid[2], phase, gpu::Constant(6, sum),
-                                                     whole_voxels, layer, looks_away, tree});
+    programs.integrate = frame::ray_pass(options_.rays, k_vsv_sun_frag,
+                                         std::array{grid[0], grid[1], grid[2], phase, gpu::Constant(6, sum),
+                                                    whole_voxels, layer, looks_away, tree});
   } else if (variant.integral == VsvIntegral::riemann) {
-    programs.integrate =
-        frame::ScreenPass(k_vsv_riemann_frag, std::array{grid[0], grid[1], grid[2], phase, whole_voxels,
-                                                         rough, layer, looks_away, reach, light_textured});
+    programs.integrate = frame::ray_pass(options_.rays, k_vsv_riemann_frag,
+                                         std::array{grid[0], grid[1], grid[2], phase, whole_voxels, rough,
+                                                    layer, looks_away, reach, light_textured});
   } else if (variant.integral == VsvIntegral::quadrature) {
     programs.integrate =
-        frame::ScreenPass(k_vsv_quadrature_frag,
-                          std::array{grid[0], grid[1], grid[2], phase, channels, whole_voxels, layer,
-                                     looks_away, reach, light_textured, colour_rows, colour_columns, tree});
+        frame::ray_pass(options_.rays, k_vsv_quadrature_frag,
+                        std::array{grid[0], grid[1], grid[2], phase, channels, whole_voxels, layer,
+                                   looks_away, reach, light_textured, colour_rows, colour_columns, tree});
     if (variant.colour_rows > 0) {
       programs.build_table =
           gpu::Pipeline::compute(k_vsv_colour_build_comp, std::array{colour_rows, colour_columns});
@@ -116,9 +116,9 @@ const Vsv::Programs& Vsv::load(const gpu::Context& context, const Variant& varia
     const gpu::Constant factored(7, variant.integral == VsvIntegral::factored);
     programs.build_table = gpu::Pipeline::compute(
         k_vsv_table_build_comp, std::array{grid[0], grid[1], grid[2], phase, channels, rows, rough});
-    programs.integrate = frame::ScreenPass(
-        k_vsv_table_frag, std::array{grid[0], grid[1], grid[2], phase, channels, rows, direct, factored,
-                                     whole_voxels, rough, layer, looks_away, tree});
+    programs.integrate = frame::ray_pass(options_.rays, k_vsv_table_frag,
+                                         std::array{grid[0], grid[1], grid[2], phase, channels, rows, direct,
+                                                    factored, whole_voxels, rough, layer, looks_away, tree});
     require_table(std::int64_t{programs.table_rows} * (resolution.phi + 2) * variant.channels * 16,
                   "the table integral");
   }
@@ -157,7 +157,7 @@ std::optional<frame::Refusal> VsvOptions::refusal(const scene::View& view) const
 }
 
 void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) {
-  assert(!options_.refusal(inputs.view));
+  assert(!options_.refusal(inputs.view) && options_.rays.are_listed() == inputs.listed.has_value());
   const VsvIntegral integral = options_.used_integral(inputs.view);
   const bool is_sun = scene::is_sun(inputs.light());
   const bool has_table = !is_sun && (integral == VsvIntegral::table || integral == VsvIntegral::factored);
@@ -199,7 +199,7 @@ void Vsv::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radian
     });
   }
   inputs.timer.time("integrate", [&] {
-    inputs.surfaces.bind_sampler(shaders::k_surface_unit);
+    inputs.ray_surfaces().bind_sampler(shaders::k_surface_unit);
     if (programs.table_rows > 0) table_texels_.bind_sampler(shaders::k_table_unit);
     programs.integrate.run({radiance});
   });
@@ -212,9 +212,10 @@ std::map<std::string, std::int64_t> Vsv::bytes() const {
 }
 
 std::map<std::string, double> Vsv::counters(const frame::FrameInputs& inputs) {
-  const frame::ScreenPass pass(k_vsv_count_frag, last_->of_ray);
-  const gpu::Texture counts(gpu::Format::rgba32f, inputs.view.size);
-  inputs.surfaces.bind_sampler(shaders::k_surface_unit);
+  const frame::ScreenPass pass = frame::ray_pass(options_.rays, k_vsv_count_frag, last_->of_ray);
+  const gpu::Texture counts(gpu::Format::rgba32f, inputs.ray_surfaces().size());
+  counts.clear();
+  inputs.ray_surfaces().bind_sampler(shaders::k_surface_unit);
   pass.run({counts});
   double changes = 0.0, reads = 0.0;
   for (const glm::vec4& ray : counts.read<glm::vec4>()) {
@@ -255,7 +256,8 @@ frame::AirlightMethod vsv_method() {
                                         .cost = "none",
                                         .sweep = {"growing", "equal"}},
                                        {{"growing"}, {"equal", "the paper's"}}, &VsvOptions::phi_cells));
-  options.push_back(frame::where_option(&VsvOptions::where));
+  for (frame::Option& option : frame::options_of(&VsvOptions::rays, frame::view_rays_options()))
+    options.push_back(std::move(option));
   return frame::describe<frame::Airlight, VsvOptions>(
       "vsv", "epipolar voxelized shadow volumes", {}, std::move(options),
       [](const gpu::Context& context, const VsvOptions& vsv) { return std::make_unique<Vsv>(context, vsv); });

@@ -31,7 +31,7 @@ enum class PhiCells {
 struct VsvOptions {
   VsvIntegral integral = VsvIntegral::automatic;
   PhiCells phi_cells = PhiCells::growing;
-  frame::Where where = frame::Where::pixel;
+  frame::ViewRays rays = {};
   epipolar::VolumeOptions volume = {};
 
   /// @throws scene::Error (usage) when the options contradict each other.
@@ -63,7 +63,7 @@ class Vsv : public frame::Airlight {
 
   /// The options must not refuse the view.
   void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override;
-  frame::Where where() const override { return options_.where; }
+  frame::ViewRays rays() const override { return options_.rays; }
   std::map<std::string, std::int64_t> bytes() const override;
   /// "changes" of visibility, and "reads" of 128 bits, by which they are found.
   std::map<std::string, double> counters(const frame::FrameInputs& inputs) override;

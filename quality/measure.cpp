@@ -58,6 +58,7 @@ class DebugProbe : public frame::Airlight {
       images_.push_back(std::move(image));
     }
   }
+  frame::ViewRays rays() const override { return airlight_.rays(); }
   std::vector<frame::DebugImage> take_images() { return std::move(images_); }
 
  private:
@@ -72,8 +73,9 @@ class CountedAirlight : public frame::Airlight {
   void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override {
     airlight_.integrate(inputs, radiance);
     for (const auto& [name, count] : airlight_.counters(inputs)) counts[name] += count;
+    counts["view_rays"] += inputs.ray_count();
   }
-  frame::Where where() const override { return airlight_.where(); }
+  frame::ViewRays rays() const override { return airlight_.rays(); }
   bool sees_every_light() const override { return airlight_.sees_every_light(); }
 
   std::map<std::string, double> counts;

@@ -10,6 +10,7 @@ CONST uint k_light_block = 1u;   // frame/light.glsl
 CONST uint k_medium_block = 2u;  // frame/medium.glsl
 CONST uint k_space_block = 3u;   // epipolar/space.glsl
 CONST uint k_froxel_history_block = 4u;  // media/froxels.glsl
+CONST uint k_rays_block = 5u;    // frame/ray_list_block.glsl
 
 // Texture units
 CONST uint k_surface_unit = 0u;         // of a frame: normal and distance a pixel, …
@@ -38,6 +39,12 @@ CONST uint k_parts_unit = 14u;        // While occluders are made: which part a 
 CONST uint k_is_culled_unit = 15u;    // … and which parts are culled
 CONST uint k_subtrees_unit = 7u;      // While a tree is asked: what is known of its subtrees
 
+CONST uint k_places_unit = 2u;            // While airlight is asked of listed rays: where they pass through the image.
+CONST uint k_ray_members_unit = 6u;       // While they are listed, and then interpolated: of which sample or pixel each is, …
+CONST uint k_sample_depths_unit = 7u;     // … what epipolar samples see, …
+CONST uint k_ray_groups_unit = 12u;       // … which of them have rays, …
+CONST uint k_sample_airlight_unit = 13u;  // … and their airlight
+
 // Storage buffers
 CONST uint k_phi_range_storage = 0u;  // epipolar/phi_range.glsl
 CONST uint k_grid_storage = 1u;
@@ -50,6 +57,9 @@ CONST uint k_occluders_storage = 1u;  // as above
 CONST uint k_tree_planes_storage = 2u;
 CONST uint k_tree_links_storage = 3u;
 CONST uint k_subtrees_storage = 4u;
+CONST uint k_ray_list_storage = 1u;
+CONST uint k_ray_members_storage = 2u;
+CONST uint k_ray_groups_storage = 3u;
 
 // Image units, of which a compute shader has 8
 CONST uint k_froxels_image = 0u;  // media/froxel_scatter.comp

@@ -1,6 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "media/lamp.glsl"
+#include "frame/ray_place.glsl"
 #include "frame/shadow_of_air.glsl"
 #include "media/march_steps.glsl"
 #include "media/sun.glsl"
@@ -72,9 +73,10 @@ vec3 lamp_airlight(MediumRay ray, float offset) {
 }
 
 void main() {
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
-  MediumRay ray = medium_ray(vec2(pixel) + 0.5, texelFetch(surface_image, pixel, 0).w);
-  float offset = k_jitter != k_off ? interleaved_offset(pixel) : 0.5;
+  ivec2 texel = ivec2(gl_FragCoord.xy);
+  vec2 place = ray_place(texel);
+  MediumRay ray = medium_ray(place, texelFetch(surface_image, texel, 0).w);
+  float offset = k_jitter != k_off ? interleaved_offset(ivec2(place)) : 0.5;
   vec3 radiance = k_sun != 0u ? sun_airlight(ray, offset) : lamp_airlight(ray, offset);
   // What is gathered is smooth where a lamp is seen: there airlight grows as 1/sin α.
   float flattening = 1.0;

@@ -82,8 +82,7 @@ vec3 integrate_coloured_panel(LayerRay ray, MediumBlock fog, float from, float t
 }
 
 void main() {
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
-  VsvRay ray = vsv_ray(pixel);
+  VsvRay ray = vsv_ray(ivec2(gl_FragCoord.xy));
   LayerRay view = in_plane(ray.seen);
   MediumBlock fog = medium;
   if (k_channels == 1u) fog.sigma_t = fog.sigma_t.xxx;  // one exponential instead of three

@@ -1,9 +1,10 @@
-// What the VSV integrators share: a pixel's view ray in the grid. GLSL only.
+// What the VSV integrators share: a view ray in the grid. GLSL only.
 #include "media/medium_ray.glsl"
 #include "epipolar/resolution.glsl"
 #include "epipolar/phi_range.glsl"
 #include "epipolar/change_tree.glsl"
 #include "media/row_end.glsl"
+#include "frame/ray_place.glsl"
 
 // Whether a voxel is dark as soon as a triangle touches it, or only where its centre is in shadow.
 layout(constant_id = 8) const uint k_whole_voxels = 0;
@@ -53,10 +54,10 @@ bool is_dark_beside_eye(uint plane) {
   return is_bit_set(int((plane * k_alpha_count + row) * k_texels_per_ray), 0u);
 }
 
-VsvRay vsv_ray(ivec2 pixel) {
+VsvRay vsv_ray(ivec2 texel) {
   VsvRay ray;
-  vec4 surface = texelFetch(surface_image, pixel, 0);
-  ray.seen = medium_ray(vec2(pixel) + 0.5, surface.w);
+  vec4 surface = texelFetch(surface_image, texel, 0);
+  ray.seen = medium_ray(ray_place(texel), surface.w);
   vec3 direction = ray.seen.direction;
   uint i = alpha_cell(space, ray.seen.alpha, k_alpha_count);
   float theta = theta_of(space, direction);

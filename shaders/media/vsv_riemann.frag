@@ -10,8 +10,7 @@
 layout(constant_id = 9) const uint k_rough = 0;
 
 void main() {
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
-  VsvRay ray = vsv_ray(pixel);
+  VsvRay ray = vsv_ray(ivec2(gl_FragCoord.xy));
   LayerRay view = in_plane(ray.seen);
   vec3 sum = vec3(0.0);
   for (uint texel = 0u; texel < texel_count(ray); ++texel) {

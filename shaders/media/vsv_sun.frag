@@ -13,8 +13,7 @@ const uint k_riemann = 1u;
 const uint k_factored = 2u;
 
 void main() {
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
-  VsvRay ray = vsv_ray(pixel);
+  VsvRay ray = vsv_ray(ivec2(gl_FragCoord.xy));
   SunRay sun = sun_ray(medium, light, ray.seen.direction, ray.seen.distance);
   // From s to the distance along the ray, within the medium.
   float stretch = 1.0 / ray.seen.angle.sine;

@@ -29,8 +29,7 @@ void add_entry(float place, uint row_start, float sign, inout vec2 sum[3]) {
 }
 
 void main() {
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
-  VsvRay ray = vsv_ray(pixel);
+  VsvRay ray = vsv_ray(ivec2(gl_FragCoord.xy));
 
   vec3 integral = vec3(0.0);
   if (ray.last_cell < k_direct_cells) {

@@ -16,7 +16,7 @@ using frame::Where;
 
 std::vector<glm::vec3> airlight_of(const scene::Geometry& geometry, const scene::View& view, Where where) {
   frame::Frame frame(tests::gpu_context(), geometry, 512);
-  media::Vsv vsv(tests::gpu_context(), {.where = where, .volume = {.resolution = {256, 512, 512}}});
+  media::Vsv vsv(tests::gpu_context(), {.rays = {.where = where}, .volume = {.resolution = {256, 512, 512}}});
   frame::NoShadow no_shadow;
   gpu::StageTimer timer(nullptr);
   frame.render(view, no_shadow, vsv, timer);
