@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The figures of README.md and docs/figures.md:
-# `tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|quadrature|lights|curves|cost|leaks|causes|path|rivals [OUT]`.
+# `tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|quadrature|lights|curves|cost|leaks|causes|path|rivals|bits-or-tree [OUT]`.
 # The paper's Tables 2 to 4 and the bandwidth: build/release/tests/bench/airlight_tables, after ./test.
 #
 # truth     the exact reference against itself refined, against rays, 256×256 and 512×512 pixels
@@ -16,7 +16,8 @@
 # cost      every population × integral × ranges, 1024×1024 pixels: time, error and stages (the paper's Table 1)
 # leaks     the three populations on closed and open models, 512×512 pixels
 # causes    the error of a fine grid, and what it becomes as one thing at a time is at its default
-# rivals    what engines use instead, at each of their costs, 256×256 and 1024×1024: time, error and stages
+# rivals    vsv and what engines use instead, each at several costs, 1024×1024: sweeps, and what leads at which error
+# bits-or-tree  vsv by bits and by the tree, over the counts of φ, 512×512: a sweep each
 # The models are not part of the project: AIRLIGHT_SHARED is the folder that holds scenes/ (default ../shared).
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -51,6 +52,12 @@ compare() { # SCENE OPTIONS...
   # shellcheck disable=SC2086  # a view is several words
   ./run compare ${view[$scene]} --cache "$out/truth" "$@"
   echo
+}
+sweep() { # SCENE OPTIONS...
+  local scene=$1
+  shift
+  # shellcheck disable=SC2086
+  ./run sweep ${view[$scene]} --cache "$out/truth" "$@"
 }
 march=reference-march:rays=single,reference-march:rays=packet
 case ${1:-} in
@@ -190,20 +197,23 @@ case ${1:-} in
     done
     ;;
   rivals)
-    rivals=vsv
-    for spacing in distance angle; do
-      for n in 8 32 128 512; do rivals+=,march:spacing=$spacing:steps=$n; done
+    settings='vsv:phi={128,256,512,1024},vsv:where=half:phi=256,vsv:where=epipolar:phi={256,512}'
+    settings+=',vsv:query=tree:phi={512,2048},vsv:alpha=512:theta=2048:phi=1024'
+    settings+=',march:steps={16,64}:jitter={off,gathered},march:steps=256,march:steps=64:spacing=angle'
+    settings+=',march:where=epipolar:steps={64,256},froxel:tile={4,8},froxel:tile=8:samples=4'
+    for scene in window sponza fence maple sun_sponza; do
+      sweep "$scene" --size 1024x1024 --surface none --frames 5 -o "$out/rivals_$scene" --volume "$settings" --quiet
+      ./run front "$out/rivals_$scene"
     done
-    for n in 8 32 128; do rivals+=,march:jitter=interleaved:steps=$n,march:jitter=gathered:steps=$n; done
-    rivals+=,froxel,froxel:samples=4,froxel:samples=16,froxel:tile=4,froxel:tile=4:slices=128,froxel:tile=2:slices=256
-    for size in 256x256 1024x1024; do
-      for scene in window fence sponza maple sun_sponza; do
-        compare "$scene" --size $size --surface none -o "$out/rivals_${size}_$scene" --volume "$rivals" --quiet
-      done
+    ;;
+  bits-or-tree)
+    for scene in sponza window fence maple; do
+      sweep "$scene" --size 512x512 --surface none --frames 5 -o "$out/bits_or_tree_$scene" --quiet \
+        --volume 'vsv:query={bits,tree}:phi={128,512,1024,2048,4096}'
     done
     ;;
   *)
-    echo "usage: tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|quadrature|lights|curves|cost|leaks|causes|path|rivals [OUT]" >&2
+    echo "usage: tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|quadrature|lights|curves|cost|leaks|causes|path|rivals|bits-or-tree [OUT]" >&2
     exit 2
     ;;
 esac

@@ -44,10 +44,10 @@ void compare(gpu::Context& context, const tests::CyclesImage& truth, const std::
 }
 
 void run(const std::vector<std::string>& words) {
-  const std::string volumes =
-      words.empty() ? "vsv,vsv:query=tree,vsv:populate=conservative,vsv:populate=screen-space,vsv:where=half,"
-                      "march:steps=64,march:steps=512,froxel,reference"
-                    : words[0];
+  const std::string volumes = words.empty() ? "vsv,vsv:query=tree,vsv:populate=conservative,vsv:populate="
+                                              "screen-space,vsv:where=half,vsv:where=epipolar,"
+                                              "march:steps=64,march:steps=512,froxel,reference"
+                                            : words[0];
   gpu::Context context;
   fmt::print("{:<22} {:<36} {:>10} {:>10} {:>10}\n", "image", "volume", "mean ratio", "median %", "p85 %");
   for (const tests::CyclesImage& truth : tests::all_cycles_images()) compare(context, truth, volumes);

@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <iterator>
 #include <map>
+#include <random>
 #include <set>
 #include <string>
 #include <tuple>
@@ -1509,12 +1510,14 @@ TEST_F(Sweep, KilledAndResumedEndsWithTheSame) {
   const auto whole = errors_of({"whole/runs.jsonl"});
   ASSERT_EQ(whole.size(), 16u);
 
-  // Killed at moments that spread over a whole sweep's time.
+  // Killed ten times, at random.
   std::string command = quality::shell_quote(AIRLIGHT_BINARY) +
                         " sweep cornell --size 24x24 --theta 64 --frames 2 --quiet -o out";
   for (const std::string& word : words) command += fmt::format(" {}", quality::shell_quote(word));
   std::size_t lines = 0;
-  for (const double part : {0.05, 0.8, 0.4, 0.9, 0.2, 0.7}) {
+  std::mt19937 random(1);
+  for (int kill = 0; kill < 10; ++kill) {
+    const double part = std::uniform_real_distribution(0.03, 0.6)(random);
     shell(fmt::format("timeout -s KILL {:.3f} {}; true", part * duration.count(), command));
     const std::size_t kept = errors_of({"out/runs.jsonl"}).size();
     EXPECT_GE(kept, lines);

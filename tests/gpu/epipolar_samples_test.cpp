@@ -206,11 +206,11 @@ TEST(EpipolarSamples, OfLightsAddUp) {
   render(frame, view, of_pixels);
   const Rendered together = render(frame, view, vsv);
   Image sum(together.airlight.size());
-  std::uint32_t rays = 0;
+  std::uint32_t rays = 0;  // of the last one
   for (const scene::Light& light : view.lights) {
     const Rendered alone = render_vsv(geometry, view_of_lights({light}), k_samples);
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += alone.airlight[i];
-    rays += alone.rays;
+    rays = alone.rays;
   }
   EXPECT_LT(tests::error_of(together.airlight, sum).rrmse, 1e-6);
   EXPECT_EQ(together.rays, rays);
