@@ -17,7 +17,8 @@ void front(const Options& options) {
   const auto json = options.get("json");
   if (json && *json != "-") require_writable(*json);
   const std::vector<std::filesystem::path> places(options.places.begin(), options.places.end());
-  const std::vector<quality::Front> fronts = quality::read_fronts(places);
+  const std::vector<quality::Front> fronts =
+      quality::read_fronts(places, quality::parse_front_error(options.get("error").value_or("rrmse")));
   if (json && *json != "-") quality::write_text(*json, quality::front_json(fronts));
   print(json == "-" ? quality::front_json(fronts) : quality::front_tables(fronts));
 }

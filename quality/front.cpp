@@ -44,7 +44,7 @@ double mean_of(const Json& values, std::size_t first, std::size_t step) {
   return count > 0.0 ? sum / count : k_none;
 }
 
-SweptRun run_of(const Json& line) {
+SweptRun run_of(const Json& line, const FrontError& error) {
   SweptRun run;
   run.key = line.at("key");
   run.volume = line.at("volume");
@@ -53,7 +53,7 @@ SweptRun run_of(const Json& line) {
   if (!line.at("shadow_map").is_null()) run.shadow_map = line.at("shadow_map").get<int>();
   for (const auto& [name, bytes] : line.at("bytes").items()) run.bytes += bytes.get<std::int64_t>();
   run.frame_ms = line.at("frame_ms");
-  const Json &errors = line.at("views").at("same_surface_rrmse"), &timing = line.at("timing");
+  const Json &errors = line.at("views").at(error.column), &timing = line.at("timing");
   if (errors.size() > 1) {
     run.chosen = {mean_of(errors, 1, 2), interval_of(timing.at("odd_ratio"))};
     run.judged = {mean_of(errors, 0, 2), interval_of(timing.at("even_ratio"))};
@@ -70,8 +70,9 @@ std::string common_of(const Json& line) {
       .dump();
 }
 
-Front front_of(const Json& line) {
+Front front_of(const Json& line, const FrontError& error) {
   Front front;
+  front.error = error;
   front.scene = line.at("scene");
   const Json &device = line.at("device"), &baseline = line.at("timing").at("baseline");
   front.device =
@@ -85,7 +86,7 @@ Front front_of(const Json& line) {
   front.surface = line.at("surface");
   front.width = line.at("size").at(0);
   front.height = line.at("size").at(1);
-  front.views = line.at("views").at("same_surface_rrmse").size();
+  front.views = line.at("views").at(error.column).size();
   return front;
 }
 
@@ -115,14 +116,14 @@ std::string interval_text(const MedianInterval& interval) {
   return fmt::format("{:.3g} ({:.3g} to {:.3g})", interval.median, interval.low, interval.high);
 }
 
-std::vector<std::string> row_of(const FrontLevel& level) {
-  const std::string error = fmt::format("{:g}", 100.0 * level.error);
+std::vector<std::string> row_of(const FrontLevel& level, double shown) {
+  const std::string error = fmt::format("{:g}", shown * level.error);
   const SweptRun *best = level.best(), *rival = level.rival();
   if (!best) return {error, "-", "-", "-", "-", "-", "-", "-", "-", "-"};
   return {error,
           best->volume,
           best->shadow_map ? fmt::format("{}", *best->shadow_map) : "-",
-          fmt::format("{:.3g}", 100.0 * best->judged.error),
+          fmt::format("{:.3g}", shown * best->judged.error),
           fmt::format("{:.2f}", best->frame_ms),
           interval_text(best->judged.ratio),
           fmt::format("{:.1f}", static_cast<double>(best->bytes) / (1024.0 * 1024.0)),
@@ -141,7 +142,16 @@ MedianInterval FrontLevel::lead() const {
   return {of_rival.median / of_best.median, of_rival.low / of_best.high, of_rival.high / of_best.low};
 }
 
-std::vector<Front> read_fronts(std::span<const std::filesystem::path> places) {
+const FrontError& parse_front_error(std::string_view name) {
+  std::string words;
+  for (const FrontError& error : k_front_errors) {
+    if (error.name == name) return error;
+    words += fmt::format("{}{}", words.empty() ? "" : ", ", error.name);
+  }
+  throw Error(ExitCode::usage, "--error", fmt::format("there is no '{}'", name), "use one of " + words);
+}
+
+std::vector<Front> read_fronts(std::span<const std::filesystem::path> places, const FrontError& error) {
   std::vector<std::filesystem::path> files;
   for (const std::filesystem::path& place : places) {
     if (place.extension() == ".jsonl") {
@@ -168,9 +178,9 @@ std::vector<Front> read_fronts(std::span<const std::filesystem::path> places) {
         const std::string common = common_of(line);
         auto group = std::find_if(groups.begin(), groups.end(),
                                   [&](const auto& entry) { return entry.first == common; });
-        if (group == groups.end()) group = groups.insert(group, {common, {front_of(line), {}}});
+        if (group == groups.end()) group = groups.insert(group, {common, {front_of(line, error), {}}});
         std::vector<SweptRun>& runs = group->second.runs;
-        SweptRun run = run_of(line);
+        SweptRun run = run_of(line, error);
         if (std::none_of(runs.begin(), runs.end(), [&](const SweptRun& r) { return r.key == run.key; }))
           runs.push_back(std::move(run));
       } catch (const Json::exception&) {
@@ -184,7 +194,7 @@ std::vector<Front> read_fronts(std::span<const std::filesystem::path> places) {
   std::vector<Front> fronts;
   for (auto& [common, group] : groups) {
     group.front.runs = group.runs.size();
-    for (const double error : k_front_errors) group.front.levels.push_back(level_of(error, group.runs));
+    for (const double level : error.levels) group.front.levels.push_back(level_of(level, group.runs));
     fronts.push_back(std::move(group.front));
   }
   return fronts;
@@ -220,6 +230,7 @@ std::string front_json(std::span<const Front> fronts) {
                               {"surface", front.surface},
                               {"baseline", front.baseline},
                               {"runs", front.runs},
+                              {"error", front.error.name},
                               {"levels", levels}});
   }
   return text_of_json(json, 2) + "\n";
@@ -231,15 +242,16 @@ std::string front_tables(std::span<const Front> fronts) {
     text += fmt::format("{}, {}x{} pixels, {} {}, {} runs; {}; surface {}\nbaseline: {}\n", front.scene,
                         front.width, front.height, front.views, front.views == 1 ? "view" : "views",
                         front.runs, front.device, front.surface, front.baseline);
-    std::vector<std::vector<std::string>> rows = {{"error %", "cheapest", "shadow map", "its error %",
-                                                   "frame ms", "time/baseline", "MiB", "lead", "", "over"}};
-    for (const FrontLevel& level : front.levels) rows.push_back(row_of(level));
+    const std::string_view unit = front.error.shown == 100.0 ? " %" : "";
+    std::vector<std::vector<std::string>> rows = {{fmt::format("error{}", unit), "cheapest", "shadow map",
+                                                   fmt::format("its error{}", unit), "frame ms",
+                                                   "time/baseline", "MiB", "lead", "", "over"}};
+    for (const FrontLevel& level : front.levels) rows.push_back(row_of(level, front.error.shown));
     text += layout(rows, 2) + '\n';
   }
   text +=
-      "error: same-surface rrmse. cheapest: of all methods and settings whose error is not above it, with "
-      "the "
-      "least time.\n"
+      fmt::format("error: {}.", fronts.empty() ? "" : fronts[0].error.meaning) +
+      " cheapest: of all methods and settings whose error is not above it, with the least time.\n"
       "Of several views settings are chosen by those with odd numbers; error, time and lead are those of the "
       "even ones, and\n"
       "what is above the error there is not shown. time/baseline: median over rounds (95 % interval). lead: "

@@ -1,23 +1,38 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "quality/statistics.h"
 
 namespace airlight::quality {
 
-/// The errors that a front is asked about: same-surface rrmse.
-inline constexpr double k_front_errors[] = {0.0025, 0.005, 0.01, 0.02, 0.05, 0.1};
+/// What says how far a run is from the truth.
+struct FrontError {
+  std::string_view name;
+  std::string_view meaning;
+  std::string_view column;       ///< of a run's "views"
+  std::array<double, 6> levels;  ///< that a front is asked about
+  double shown;                  ///< times this; 100 of what is shown in %
+};
+inline constexpr FrontError k_front_errors[] = {
+    {"rrmse", "same-surface rrmse", "same_surface_rrmse", {0.0025, 0.005, 0.01, 0.02, 0.05, 0.1}, 100.0},
+    {"p99", "99th percentile of the error over the mean", "p99", {0.01, 0.02, 0.05, 0.1, 0.2, 0.5}, 100.0},
+    {"flip", "mean of HDR-FLIP", "flip", {0.005, 0.01, 0.02, 0.05, 0.1, 0.2}, 1.0}};
+
+/// @throws scene::Error (usage) naming the words
+const FrontError& parse_front_error(std::string_view name);
 
 /// What there is to say of a run, over some of its views.
 struct SweptRun {
   struct OverViews {
-    double error;          ///< same-surface rrmse, mean over the views; of dark ones none
+    double error;          ///< mean over the views; of dark ones none
     MedianInterval ratio;  ///< of its time to the baseline's
   };
   std::string key, volume, surface;
@@ -61,17 +76,20 @@ struct Front {
   std::string scene, device, baseline, surface;
   int width = 0, height = 0;
   std::size_t views = 0, runs = 0;
-  std::vector<FrontLevel> levels;  ///< of k_front_errors
+  FrontError error = k_front_errors[0];
+  std::vector<FrontLevel> levels;  ///< of the error
 };
 
 /// The fronts of all runs in folders that `airlight sweep` has written, and in .jsonl files. Of a key that is
 /// there twice on one device the first run counts.
 /// @throws scene::Error (bad_file) naming a folder without runs, and a line that is none
-std::vector<Front> read_fronts(std::span<const std::filesystem::path> places);
+std::vector<Front> read_fronts(std::span<const std::filesystem::path> places,
+                               const FrontError& error = k_front_errors[0]);
 
 /// As JSON: {"airlight", "fronts": [{"scene", "size", "views", "device", "surface", "baseline", "runs",
-/// "levels": [{"error", "leads", "lead": {"median", "low", "high"}, "methods": [{"method", "key", "volume",
-/// "shadow_map", "bytes", "frame_ms", "holds", "chosen": {"error", "ratio"}, "judged": the same}]}]}]}.
+/// "error", "levels": [{"error", "leads", "lead": {"median", "low", "high"}, "methods": [{"method", "key",
+/// "volume", "shadow_map", "bytes", "frame_ms", "holds", "chosen": {"error", "ratio"}, "judged": the
+/// same}]}]}]}.
 std::string front_json(std::span<const Front> fronts);
 
 /// As tables for a terminal, one a front.

@@ -237,11 +237,12 @@ class Sweep {
     run.cost.cpu_ms = timed.cpu_ms;
     run.cost.frames = timed.rounds;
     // What a path's frames have is kept in columns; a view is a path of one.
-    Json rrmse = Json::array(), same_surface = Json::array(), flip = Json::array();
+    Json rrmse = Json::array(), same_surface = Json::array(), p99 = Json::array(), flip = Json::array();
     if (run.path.empty()) run.path.push_back({{}, run.errors});
     for (const Run::Frame& frame : run.path) {
       rrmse.push_back(number_json(frame.errors.airlight.rrmse));
       same_surface.push_back(number_json(frame.errors.same_surface.rrmse));
+      p99.push_back(number_json(frame.errors.airlight.p99));
       flip.push_back(number_json(frame.errors.flip));
     }
     run.path.clear();
@@ -270,8 +271,11 @@ class Sweep {
         {"device", device_json(context_.device(), std::max(1u, std::thread::hardware_concurrency()))}};
     line.update(run_json(run, subject_.views[0]));
     line["timing"] = timing;
-    line["views"] = {
-        {"frame_ms", timed.view_ms}, {"rrmse", rrmse}, {"same_surface_rrmse", same_surface}, {"flip", flip}};
+    line["views"] = {{"frame_ms", timed.view_ms},
+                     {"rrmse", rrmse},
+                     {"same_surface_rrmse", same_surface},
+                     {"p99", p99},
+                     {"flip", flip}};
     return text_of_json(line);
   }
 

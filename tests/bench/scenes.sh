@@ -197,18 +197,20 @@ case ${1:-} in
     done
     ;;
   rivals)
-    settings='vsv:phi={128,256,512,1024},vsv:where=half:phi=256,vsv:where=epipolar:phi={256,512}'
-    settings+=',vsv:query=tree:phi={512,2048},vsv:alpha=512:theta=2048:phi=1024'
-    settings+=',march:steps={16,64}:jitter={off,gathered},march:steps=256,march:steps=64:spacing=angle'
-    settings+=',march:where=epipolar:steps={64,256},froxel:tile={4,8},froxel:tile=8:samples=4'
+    settings='vsv:phi={256,512,1024},vsv:where=half:phi=256,vsv:where=epipolar:phi={256,512},vsv:query=tree:phi={512,2048}'
+    settings+=',march:steps={16,64}:jitter={off,gathered},march:steps=256,march:where=epipolar:steps={64,256}'
+    settings+=',froxel:tile={4,8},froxel:tile=8:samples=4'
+    fine='vsv:phi=1024,vsv:alpha=512:theta=2048:phi=1024,march:steps=256'
     for scene in window sponza fence maple sun_sponza; do
-      sweep "$scene" --size 1024x1024 --surface none --frames 5 -o "$out/rivals_$scene" --volume "$settings" --quiet
+      options=(--size 1024x1024 --surface none --frames 6 -o "$out/rivals_$scene" --quiet)
+      sweep "$scene" "${options[@]}" --volume "$settings"
+      sweep "$scene" "${options[@]}" --volume "$fine" --shadow-map 4096
       ./run front "$out/rivals_$scene"
     done
     ;;
   bits-or-tree)
     for scene in sponza window fence maple; do
-      sweep "$scene" --size 512x512 --surface none --frames 5 -o "$out/bits_or_tree_$scene" --quiet \
+      sweep "$scene" --size 512x512 --surface none --frames 6 -o "$out/bits_or_tree_$scene" --quiet \
         --volume 'vsv:query={bits,tree}:phi={128,512,1024,2048,4096}'
     done
     ;;

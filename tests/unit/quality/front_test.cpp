@@ -44,7 +44,7 @@ json line(const std::string& volume, double error, double ratio, double spread =
               {"shadow_map", 512},
               {"frame_ms", 10.0}}},
             {"ratio", interval(ratio, spread)}}},
-          {"views", {{"same_surface_rrmse", {error}}}}};
+          {"views", {{"same_surface_rrmse", {error}}, {"p99", {3.0 * error}}, {"flip", {2.0 * error}}}}};
 }
 
 class Fronts : public testing::Test {
@@ -52,11 +52,11 @@ class Fronts : public testing::Test {
   Fronts() { std::filesystem::create_directories(folder_); }
   ~Fronts() override { std::filesystem::remove_all(folder_); }
 
-  std::vector<Front> read(const std::vector<json>& lines) const {
+  std::vector<Front> read(const std::vector<json>& lines, const char* error = "rrmse") const {
     std::ofstream stream(folder_ / "runs.jsonl");
     for (const json& l : lines) stream << l.dump() << '\n';
     stream.close();
-    return read_fronts(std::vector{folder_});
+    return read_fronts(std::vector{folder_}, parse_front_error(error));
   }
 
   std::filesystem::path folder_ =
@@ -85,6 +85,21 @@ TEST_F(Fronts, HaveTheCheapestSettingThatReachesTheError) {
   EXPECT_EQ(levels[4].rival()->volume, "vsv:alpha=64");
   EXPECT_EQ(levels[2].best()->bytes, 1572864);
   EXPECT_EQ(fronts[0].runs, 5u);
+}
+
+TEST_F(Fronts, AskAboutTheErrorThatIsNamed) {
+  const std::vector<json> lines = {line("vsv:alpha=64", 0.012, 0.5), line("vsv:alpha=128", 0.006, 1.0)};
+  // 0.6 % are 1.8 % of p99 and a FLIP of 0.012.
+  const Front by_p99 = read(lines, "p99").at(0), by_flip = read(lines, "flip").at(0);
+  EXPECT_EQ(by_p99.levels[0].best(), nullptr);
+  ASSERT_NE(by_p99.levels[1].best(), nullptr);
+  EXPECT_EQ(by_p99.levels[1].best()->volume, "vsv:alpha=128");
+  EXPECT_EQ(by_flip.levels[1].best(), nullptr);
+  EXPECT_EQ(by_flip.levels[2].best()->volume, "vsv:alpha=128");
+  EXPECT_EQ(by_flip.levels[3].best()->volume, "vsv:alpha=64");
+  EXPECT_THAT(front_tables(std::vector{by_flip}), HasSubstr("error: mean of HDR-FLIP."));
+  EXPECT_THAT(front_tables(std::vector{by_flip}), HasSubstr("0.02   vsv:alpha=128"));
+  EXPECT_THROW(parse_front_error("psnr"), scene::Error);
 }
 
 TEST_F(Fronts, LeadOnlyWhereTheIntervalExcludesOne) {
