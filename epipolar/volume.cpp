@@ -149,8 +149,9 @@ std::vector<frame::Option> volume_options() {
                                                             whole_texels, &Resolution::phi)}))
     options.push_back(std::move(count));
   // A tree has its own count of α.
-  const auto alpha = options.end() - 3;
-  alpha->get = [get = alpha->get](const void* volume) -> frame::OptionValue {
+  Option& alpha = *std::find_if(options.begin(), options.end(),
+                                [](const Option& option) { return option.text.name == "alpha"; });
+  alpha.get = [get = alpha.get](const void* volume) -> frame::OptionValue {
     const auto& of_volume = *static_cast<const VolumeOptions*>(volume);
     return of_volume.query == Query::tree ? of_volume.used_resolution().alpha : get(volume);
   };
@@ -270,7 +271,7 @@ shaders::EpipolarBlock ShadowVolume::find_ranges(const frame::FrameInputs& input
       if (inputs.listed) {
         if (!phi_range_listed_)
           phi_range_listed_ =
-              gpu::Pipeline::compute(k_phi_range_listed_comp, resolution_constants(options_.resolution));
+              gpu::Pipeline::compute(k_phi_range_listed_comp, resolution_constants(grid_.resolution()));
         phi_range_listed_->dispatch({(inputs.listed->most + 31) / 32, 1, 1});
       } else {
         const glm::uvec2 size = inputs.view.size;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 
 #include "frame/gbuffer.h"
 #include "frame/scene_buffers.h"

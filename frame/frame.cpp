@@ -249,11 +249,6 @@ std::map<std::string, std::int64_t> Frame::bytes() const {
   return bytes;
 }
 
-std::optional<std::uint32_t> Frame::listed_rays() const {
-  if (!samples_) return {};
-  return samples_->listed().count();
-}
-
 FrameImages Frame::read() const {
   FrameImages images;
   images.size = radiance_.size();

@@ -63,10 +63,6 @@ class Frame {
   /// As `read`, and frees each image once it is read: large ones are never held twice.
   FrameImages take();
 
-  /// View rays along which the airlight of the last frame's last light was asked for, where they were listed
-  /// (EpipolarSamples); none otherwise. Waits for the frame.
-  std::optional<std::uint32_t> listed_rays() const;
-
   /// GPU memory of what the last frame used beside its methods' own, by name.
   std::map<std::string, std::int64_t> bytes() const;
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <initializer_list>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -85,24 +87,23 @@ const Vsv::Programs& Vsv::load(const gpu::Context& context, const Variant& varia
     table_texels_ = {context.limits(), table_, gpu::Format::rgba32f, what};
   };
   programs.of_ray = {grid[0], grid[1], grid[2], phase, whole_voxels, layer, looks_away, tree};
+  const auto pass = [&](std::span<const std::uint32_t> fragment, std::initializer_list<gpu::Constant> more) {
+    std::vector<gpu::Constant> constants = programs.of_ray;
+    constants.insert(constants.end(), more);
+    return frame::ray_pass(options_.rays, fragment, constants);
+  };
   programs.phi_growth = gpu::Pipeline::compute(k_phi_growth_comp, std::array{grid[0], phase});
   if (variant.sun) {
     // In the order of shaders/media/vsv_sun.frag.
     const std::uint32_t sum = variant.integral == VsvIntegral::riemann    ? 1
                               : variant.integral == VsvIntegral::factored ? 2
                                                                           : 0;
-    programs.integrate = frame::ray_pass(options_.rays, k_vsv_sun_frag,
-                                         std::array{grid[0], grid[1], grid[2], phase, gpu::Constant(6, sum),
-                                                    whole_voxels, layer, looks_away, tree});
+    programs.integrate = pass(k_vsv_sun_frag, {gpu::Constant(6, sum)});
   } else if (variant.integral == VsvIntegral::riemann) {
-    programs.integrate = frame::ray_pass(options_.rays, k_vsv_riemann_frag,
-                                         std::array{grid[0], grid[1], grid[2], phase, whole_voxels, rough,
-                                                    layer, looks_away, reach, light_textured});
+    programs.integrate = pass(k_vsv_riemann_frag, {rough, reach, light_textured});
   } else if (variant.integral == VsvIntegral::quadrature) {
     programs.integrate =
-        frame::ray_pass(options_.rays, k_vsv_quadrature_frag,
-                        std::array{grid[0], grid[1], grid[2], phase, channels, whole_voxels, layer,
-                                   looks_away, reach, light_textured, colour_rows, colour_columns, tree});
+        pass(k_vsv_quadrature_frag, {channels, reach, light_textured, colour_rows, colour_columns});
     if (variant.colour_rows > 0) {
       programs.build_table =
           gpu::Pipeline::compute(k_vsv_colour_build_comp, std::array{colour_rows, colour_columns});
@@ -116,9 +117,7 @@ const Vsv::Programs& Vsv::load(const gpu::Context& context, const Variant& varia
     const gpu::Constant factored(7, variant.integral == VsvIntegral::factored);
     programs.build_table = gpu::Pipeline::compute(
         k_vsv_table_build_comp, std::array{grid[0], grid[1], grid[2], phase, channels, rows, rough});
-    programs.integrate = frame::ray_pass(options_.rays, k_vsv_table_frag,
-                                         std::array{grid[0], grid[1], grid[2], phase, channels, rows, direct,
-                                                    factored, whole_voxels, rough, layer, looks_away, tree});
+    programs.integrate = pass(k_vsv_table_frag, {channels, rows, direct, factored, rough});
     require_table(std::int64_t{programs.table_rows} * (resolution.phi + 2) * variant.channels * 16,
                   "the table integral");
   }

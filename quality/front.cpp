@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "frame/option.h"
 #include "quality/results.h"
 #include "quality/results_json.h"
 #include "quality/run_file.h"
@@ -143,12 +144,9 @@ MedianInterval FrontLevel::lead() const {
 }
 
 const FrontError& parse_front_error(std::string_view name) {
-  std::string words;
-  for (const FrontError& error : k_front_errors) {
-    if (error.name == name) return error;
-    words += fmt::format("{}{}", words.empty() ? "" : ", ", error.name);
-  }
-  throw Error(ExitCode::usage, "--error", fmt::format("there is no '{}'", name), "use one of " + words);
+  frame::Words words;
+  for (const FrontError& error : k_front_errors) words.push_back({error.name});
+  return k_front_errors[frame::parse_word("--error", name, words)];
 }
 
 std::vector<Front> read_fronts(std::span<const std::filesystem::path> places, const FrontError& error) {

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <functional>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -44,60 +46,38 @@ std::map<std::string, double> median_stages(const Frames& frames, const Stages& 
   return medians;
 }
 
-/// Looks at what an airlight method left behind of each light.
-class DebugProbe : public frame::Airlight {
+/// Looks at what an airlight method has left behind of each light.
+class AirlightProbe : public frame::Airlight {
  public:
-  explicit DebugProbe(frame::Airlight& airlight) : airlight_(airlight) {}
+  using Look = std::function<void(const frame::FrameInputs& inputs)>;
+  AirlightProbe(frame::Airlight& airlight, Look look) : airlight_(airlight), look_(std::move(look)) {}
   void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override {
     airlight_.integrate(inputs, radiance);
-    for (frame::DebugImage& image : airlight_.debug_images(inputs)) {
-      if (inputs.view.lights.size() > 1) {
-        image.name += fmt::format("_{}", inputs.light_index);
-        image.caption += fmt::format(", of light '{}'", inputs.light().name);
-      }
-      images_.push_back(std::move(image));
-    }
-  }
-  frame::ViewRays rays() const override { return airlight_.rays(); }
-  std::vector<frame::DebugImage> take_images() { return std::move(images_); }
-
- private:
-  frame::Airlight& airlight_;
-  std::vector<frame::DebugImage> images_;
-};
-
-/// What methods count of each light, summed.
-class CountedAirlight : public frame::Airlight {
- public:
-  explicit CountedAirlight(frame::Airlight& airlight) : airlight_(airlight) {}
-  void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override {
-    airlight_.integrate(inputs, radiance);
-    for (const auto& [name, count] : airlight_.counters(inputs)) counts[name] += count;
-    counts["view_rays"] += inputs.ray_count();
+    look_(inputs);
   }
   frame::ViewRays rays() const override { return airlight_.rays(); }
   bool sees_every_light() const override { return airlight_.sees_every_light(); }
 
-  std::map<std::string, double> counts;
-
  private:
   frame::Airlight& airlight_;
+  Look look_;
 };
 
-class CountedShadow : public frame::SurfaceShadow {
+/// The same of a method of surface shadow.
+class ShadowProbe : public frame::SurfaceShadow {
  public:
-  explicit CountedShadow(frame::SurfaceShadow& shadow) : shadow_(shadow) {}
+  using Look = AirlightProbe::Look;
+  ShadowProbe(frame::SurfaceShadow& shadow, Look look) : shadow_(shadow), look_(std::move(look)) {}
   gpu::Format visibility_format() const override { return shadow_.visibility_format(); }
   void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override {
     shadow_.query(inputs, visibility);
-    for (const auto& [name, count] : shadow_.counters(inputs)) counts[name] += count;
+    look_(inputs);
   }
   bool sees_every_light() const override { return shadow_.sees_every_light(); }
 
-  std::map<std::string, double> counts;
-
  private:
   frame::SurfaceShadow& shadow_;
+  Look look_;
 };
 
 }  // namespace
@@ -124,11 +104,16 @@ void Measurer::draw(frame::SurfaceShadow& shadow, frame::Airlight& airlight) {
 }
 
 std::map<std::string, double> Measurer::count(frame::SurfaceShadow& shadow, frame::Airlight& airlight) {
-  CountedShadow counted_shadow(shadow);
-  CountedAirlight counted_airlight(airlight);
-  draw(counted_shadow, counted_airlight);
-  std::map<std::string, double> counters = counted_airlight.counts;
-  counters.merge(counted_shadow.counts);
+  std::map<std::string, double> counters;
+  const auto add = [&](const std::map<std::string, double>& counts) {
+    for (const auto& [name, count] : counts) counters[name] += count;
+  };
+  ShadowProbe shadow_probe(shadow, [&](const frame::FrameInputs& inputs) { add(shadow.counters(inputs)); });
+  AirlightProbe airlight_probe(airlight, [&](const frame::FrameInputs& inputs) {
+    add(airlight.counters(inputs));
+    counters["view_rays"] += inputs.ray_count();
+  });
+  draw(shadow_probe, airlight_probe);
   for (auto& [name, count] : counters) count /= static_cast<double>(view_->size.x) * view_->size.y;
   return counters;
 }
@@ -362,10 +347,19 @@ std::vector<Measurer::FrameTime> Measurer::play(const Pair& pair, std::span<cons
 
 std::vector<frame::DebugImage> Measurer::debug_images(const VolumeChoice& volume) {
   const auto airlight = volume.make(context_, *reference_);
-  DebugProbe probe(*airlight);
+  std::vector<frame::DebugImage> images;
+  AirlightProbe probe(*airlight, [&](const frame::FrameInputs& inputs) {
+    for (frame::DebugImage& image : airlight->debug_images(inputs)) {
+      if (inputs.view.lights.size() > 1) {
+        image.name += fmt::format("_{}", inputs.light_index);
+        image.caption += fmt::format(", of light '{}'", inputs.light().name);
+      }
+      images.push_back(std::move(image));
+    }
+  });
   frame::NoShadow no_shadow;
   draw(no_shadow, probe);
-  return probe.take_images();
+  return images;
 }
 
 }  // namespace airlight::quality

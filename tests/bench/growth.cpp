@@ -5,7 +5,6 @@
 // composite. Below, the exponent of its growth: the slope of log time over log value, by least squares.
 // `size`: the side of `window` [pixels]. `triangles`: of `spheres`. `lights`: of `window`, 1.5 m apart, that
 // share the power of one. `sigma`: σ_s of `spheres` [1/m]. All but the first of 512×512 pixels.
-#include <cmath>
 #include <functional>
 #include <map>
 #include <set>
@@ -68,20 +67,6 @@ const std::map<std::string, Axis> k_axes = {
                  return made;
                }}}};
 
-double slope(const std::vector<double>& x, const std::vector<double>& y) {
-  double mean_x = 0, mean_y = 0, xx = 0, xy = 0;
-  const auto count = static_cast<double>(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    mean_x += std::log(x[i]) / count;
-    mean_y += std::log(y[i]) / count;
-  }
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    xx += (std::log(x[i]) - mean_x) * (std::log(x[i]) - mean_x);
-    xy += (std::log(x[i]) - mean_x) * (std::log(y[i]) - mean_y);
-  }
-  return xy / xx;
-}
-
 void measure(gpu::Context& context, const std::string& name, const Axis& axis, const std::string& volumes) {
   const std::set<std::string> shared = {"surfaces", "shadow_map", "composite", "surface_query"};
   const auto choices = quality::parse_volumes(volumes);
@@ -106,7 +91,8 @@ void measure(gpu::Context& context, const std::string& name, const Axis& axis, c
     fmt::print("\n");
   }
   fmt::print("{:<10}", "exponent");
-  for (const auto& choice : choices) fmt::print(" {:>28.2f}", slope(axis.values, times.at(choice.spec)));
+  for (const auto& choice : choices)
+    fmt::print(" {:>28.2f}", bench::exponent(axis.values, times.at(choice.spec)));
   fmt::print("\n\n");
 }
 

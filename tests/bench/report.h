@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdlib>
 #include <exception>
 #include <string>
@@ -8,6 +9,21 @@
 #include <fmt/format.h>
 
 namespace airlight::bench {
+
+/// Of growth: the slope of log(ms) over log(count), by least squares.
+template <typename Count>
+double exponent(const std::vector<Count>& counts, const std::vector<double>& ms) {
+  double x = 0, y = 0, xx = 0, xy = 0;
+  const auto n = static_cast<double>(counts.size());
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const double a = std::log(static_cast<double>(counts[i])), b = std::log(ms[i]);
+    x += a;
+    y += b;
+    xx += a * a;
+    xy += a * b;
+  }
+  return (n * xy - x * y) / (n * xx - x * x);
+}
 
 /// Runs a program with the words of its command line, and says what went wrong. @returns its exit code
 template <class Run>

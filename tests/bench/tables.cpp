@@ -7,7 +7,6 @@
 // without.
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstring>
 #include <functional>
 #include <map>
@@ -20,6 +19,7 @@
 #include "frame/frame.h"
 #include "frame/none.h"
 #include "media/vsv.h"
+#include "report.h"
 #include "scene/builtin.h"
 #include "scene/error.h"
 #include "surface_shadows/shadow_map_lookup.h"
@@ -90,20 +90,6 @@ class Bench {
   scene::View view_;
 };
 
-/// The slope of log(ms) over log(count).
-double exponent(const std::vector<int>& counts, const std::vector<double>& ms) {
-  double x = 0, y = 0, xx = 0, xy = 0;
-  const auto n = static_cast<double>(counts.size());
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    const double a = std::log(counts[i]), b = std::log(ms[i]);
-    x += a;
-    y += b;
-    xx += a * a;
-    xy += a * b;
-  }
-  return (n * xy - x * y) / (n * xx - x * x);
-}
-
 /// One line of a table: a stage's time at each count, and the exponent.
 void print_line(const std::string& label, const std::vector<int>& counts, const std::vector<Stages>& runs,
                 const std::string& stage) {
@@ -113,7 +99,7 @@ void print_line(const std::string& label, const std::vector<int>& counts, const 
     ms.push_back(run.at(stage));
     line += fmt::format("{:>9.1f}", ms.back());
   }
-  fmt::print("{}{:>9.2f}\n", line, exponent(counts, ms));
+  fmt::print("{}{:>9.2f}\n", line, bench::exponent(counts, ms));
 }
 
 void print_head(const std::string& title, const std::vector<int>& counts) {

@@ -27,12 +27,28 @@ struct Rendered {
   std::uint32_t rays;
 };
 
+/// Counts the listed rays of the last light.
+class RayCounter : public frame::Airlight {
+ public:
+  explicit RayCounter(frame::Airlight& airlight) : airlight_(airlight) {}
+  void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override {
+    airlight_.integrate(inputs, radiance);
+    count = inputs.listed ? inputs.listed->count() : 0;
+  }
+  ViewRays rays() const override { return airlight_.rays(); }
+
+  std::uint32_t count = 0;
+
+ private:
+  frame::Airlight& airlight_;
+};
+
 Rendered render(frame::Frame& frame, const scene::View& view, frame::Airlight& airlight) {
+  RayCounter counter(airlight);
   frame::NoShadow no_shadow;
   gpu::StageTimer timer(nullptr);
-  frame.render(view, no_shadow, airlight, timer);
-  const std::uint32_t rays = frame.listed_rays().value_or(0);
-  return {frame.read().airlight, rays};
+  frame.render(view, no_shadow, counter, timer);
+  return {frame.read().airlight, counter.count};
 }
 
 Rendered render_vsv(const scene::Geometry& geometry, const scene::View& view, const ViewRays& rays) {
