@@ -169,7 +169,7 @@ int run(int argc, char** argv) {
              {"json", "FILE", "write the fronts there too; - means standard output, instead of the tables"});
   add_option(front_command, {"error", "NAME",
                              "what says how far a run is from the truth: rrmse (default: of pixels that see "
-                             "the same surface as the truth), p99, flip"});
+                             "the same surface as the truth), p99, flip, flicker"});
 
   CLI::App& scenes_command = *app.add_subcommand("scenes", "lists the built-in scenes");
   CLI::App& info_command = *app.add_subcommand("info", "tells the driver and its limits");

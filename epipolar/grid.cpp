@@ -86,7 +86,7 @@ void Grid::bind() const {
   phi_range_.bind_storage(shaders::k_phi_range_storage);
   first_shadowed_.bind_storage(shaders::k_first_shadowed_storage);
   plane_texels_.bind_sampler(shaders::k_planes_unit);
-  if (bits_.bytes() > 0) texels_.bind_sampler(shaders::k_grid_unit);
+  (bits_.bytes() > 0 ? texels_ : first_shadowed_texels_).bind_sampler(shaders::k_grid_unit);
   first_shadowed_texels_.bind_sampler(shaders::k_first_shadowed_unit);
 }
 

@@ -58,8 +58,8 @@ class Grid {
   /// For each light ray (θ_j, φ_k), at index j·N_φ + k, the first cell of α in shadow; N_α where none is.
   const gpu::Buffer& first_shadowed() const { return first_shadowed_; }
 
-  /// Binds the block, the φ range, the first shadowed cells, the planes, and the bits as texels
-  /// (shaders/bindings.glsl).
+  /// Binds the block, the φ range, the first shadowed cells, the planes, and as texels what view rays are
+  /// answered from: the bits, or without them the first shadowed cells (shaders/bindings.glsl).
   void bind() const;
 
   /// What all planes together consist of.

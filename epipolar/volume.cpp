@@ -41,14 +41,14 @@ double reach_of_light_rays(const VolumeOptions& options) {
 }  // namespace
 
 Scan VolumeOptions::used_scan() const {
-  return scan.value_or(query == Query::tree                 ? Scan::none
+  return scan.value_or(query != Query::bits                 ? Scan::none
                        : populate == Populate::screen_space ? Scan::column
                                                             : Scan::fused);
 }
 
 Resolution VolumeOptions::used_resolution() const {
   Resolution used = resolution;
-  if (query == Query::tree) used.alpha = k_tree_alpha;
+  if (query != Query::bits) used.alpha = k_tree_alpha;
   return used;
 }
 
@@ -59,9 +59,9 @@ void VolumeOptions::validate() const {
                        "the screen-space voxelization sets bits, and this scan reads none",
                        "use column or multi-pass");
   }
-  if ((used_scan() == Scan::none) != (query == Query::tree)) {
+  if ((used_scan() == Scan::none) != (query != Query::bits)) {
     throw scene::Error(scene::ExitCode::usage, "scan",
-                       query == Query::tree ? "query=tree asks no bits that a scan would make"
+                       query != Query::bits ? "query=tree asks no bits that a scan would make"
                                             : "only query=tree goes without one",
                        "leave it out");
   }
@@ -71,7 +71,7 @@ void VolumeOptions::validate() const {
                        "it sets bits, and query=tree is made from the first occluder of each light ray",
                        "use shadow-map or conservative, or query=bits");
   }
-  if (resolution.phi > k_most_tree_phi) {
+  if (query == Query::tree && resolution.phi > k_most_tree_phi) {
     throw scene::Error(scene::ExitCode::usage, fmt::format("phi={}", resolution.phi),
                        fmt::format("query=tree takes {} at most", k_most_tree_phi),
                        "ask for fewer, or use query=bits");
@@ -208,7 +208,7 @@ ShadowVolume::ShadowVolume(const gpu::Limits& limits, const VolumeOptions& optio
       mip_scan_.emplace(limits, grid_);
       break;
     case Scan::none:
-      tree_.emplace(limits, grid_.resolution());
+      if (options.query == Query::tree) tree_.emplace(limits, grid_.resolution());
       break;
   }
 }
@@ -305,9 +305,8 @@ void ShadowVolume::fill_unscanned(const frame::FrameInputs& inputs, bool with_bi
 void ShadowVolume::fill(const frame::FrameInputs& inputs) {
   if (rests_) return;
   inputs.timer.time("populate", [&] { fill_unscanned(inputs, or_scan_ || mip_scan_); });
-  if (tree_)
-    inputs.timer.time("tree", [&] { tree_->build(); });
-  else
+  if (tree_) inputs.timer.time("tree", [&] { tree_->build(); });
+  if (options_.query == Query::bits)
     inputs.timer.time("scan", [&] {
       if (fused_scan_) fused_scan_->run(grid_);
       if (or_scan_) or_scan_->run(grid_);
@@ -319,10 +318,8 @@ void ShadowVolume::fill(const frame::FrameInputs& inputs) {
 
 std::map<std::string, std::int64_t> ShadowVolume::bytes() const {
   std::map<std::string, std::int64_t> bytes = {{"light_rays", grid_.first_shadowed().bytes()}};
-  if (tree_)
-    bytes["change_tree"] = tree_->nodes().bytes();
-  else
-    bytes["grid"] = grid_.bits().bytes();
+  if (tree_) bytes["change_tree"] = tree_->nodes().bytes();
+  if (options_.query == Query::bits) bytes["grid"] = grid_.bits().bytes();
   if (populate_screen_space_) bytes["crossings"] = populate_screen_space_->bytes();
   if (mip_scan_) bytes["mip_chain"] = mip_scan_->bytes();
   return bytes;

@@ -32,14 +32,15 @@ enum class Scan {
   fused,       ///< FusedScan: bits are scattered and scanned in one pass; not for Populate::screen_space
   column,      ///< bits are scattered, then OrScan
   multi_pass,  ///< bits are scattered, then MipScan
-  none,        ///< of Query::tree
+  none,        ///< of all but Query::bits
 };
 
 /// What a view ray is answered from.
 enum class Query {
-  bits,  ///< the voxels on its row of the grid
-  tree,  ///< ChangeTree, over the first shadowed cells of light rays: no voxel is stored. Not for
-         ///< Populate::screen_space.
+  bits,        ///< the voxels on its row of the grid
+  tree,        ///< ChangeTree, over the first shadowed cells of light rays: no voxel is stored. Not for
+               ///< Populate::screen_space.
+  light_rays,  ///< each light ray's own first shadowed cell: nothing is made from them
 };
 
 /// How a shadow volume is made.
@@ -54,8 +55,8 @@ struct VolumeOptions {
   /// The scan that the options stand for.
   Scan used_scan() const;
 
-  /// The resolution that the options stand for: a tree tells as many cells of α apart as its numbers can,
-  /// whatever is asked for, as they cost it nothing.
+  /// The resolution that the options stand for: without bits as many cells of α are told apart as a
+  /// tree's numbers can, whatever is asked for, as they cost nothing.
   Resolution used_resolution() const;
 
   /// @throws scene::Error (usage) when the options contradict each other.
@@ -72,12 +73,13 @@ struct VolumeOptions {
 /// What there is to choose, for the methods that have a volume.
 std::vector<frame::Option> volume_options();
 
-/// And for those that ask it along view rays.
+/// And for those that ask bits or a tree along view rays.
 frame::Option query_option();
 
 /// The voxelized shadow volume of a frame: ranges → populate → scan. Afterwards the bit of voxel (α_i, θ_j,
 /// φ_k) says whether it is in shadow; with Ranges::frame, only where a pixel may read it. With Query::tree a
-/// tree takes the place of scan and bits. Based on: Wyman, "Voxelized Shadow Volumes", HPG 2011, section 2.2.
+/// tree takes the place of scan and bits, with Query::light_rays nothing does. Based on: Wyman, "Voxelized
+/// Shadow Volumes", HPG 2011, section 2.2.
 class ShadowVolume {
  public:
   /// @throws scene::Error (usage) where options contradict each other or are still automatic; (driver) as
@@ -94,10 +96,11 @@ class ShadowVolume {
   /// need not be made anew either.
   bool rests() const { return rests_; }
 
-  /// Populates and scans, unless the volume rests; the grid is bound. Times `populate`, and `scan` or `tree`.
+  /// Populates and scans, unless the volume rests; the grid is bound. Times `populate`, and `scan` or `tree`,
+  /// if any.
   void fill(const frame::FrameInputs& inputs);
 
-  /// The same without the scan: the bits that it would start from. Not with Query::tree.
+  /// The same without the scan: the bits that it would start from. Of Query::bits.
   void fill_unscanned(const frame::FrameInputs& inputs) {
     filled_.reset();
     fill_unscanned(inputs, true);

@@ -2,12 +2,17 @@
 
 #include <bit>
 #include <cassert>
+#include <span>
+#include <vector>
 
 #include "spirv/media/march_frag.h"
 #include "spirv/media/march_gather_frag.h"
+#include "spirv/media/march_rows_frag.h"
 
 namespace airlight::media {
-March::March(const MarchOptions& options) : options_(options), space_(sizeof(shaders::EpipolarBlock)) {
+March::March(const gpu::Context& context, const MarchOptions& options)
+    : options_(options), space_(sizeof(shaders::EpipolarBlock)) {
+  if (options.look_up == MarchLookUp::rows) rows_.emplace(context.limits(), options.volume);
   if (options.jitter == MarchJitter::gathered) gather_.emplace(k_march_gather_frag);
 }
 
@@ -15,15 +20,25 @@ const frame::ScreenPass& March::load(const Variant& variant) {
   if (const auto found = passes_.find(variant); found != passes_.end()) return found->second;
   const bool by_angle = options_.spacing == MarchSpacing::angle;
   const auto jitter = static_cast<std::uint32_t>(options_.jitter);
-  return passes_
-      .emplace(variant,
-               frame::ray_pass(options_.rays, k_march_frag,
-                               std::array{gpu::Constant(3, variant.phase), gpu::Constant(9, variant.rough),
-                                          gpu::Constant(10, variant.layer), gpu::Constant(12, variant.reach),
+  std::vector<gpu::Constant> constants = {gpu::Constant(3, variant.phase),
+                                          gpu::Constant(9, variant.rough),
+                                          gpu::Constant(10, variant.layer),
+                                          gpu::Constant(12, variant.reach),
                                           gpu::Constant(13, variant.light_textured),
-                                          gpu::Constant(16, variant.plane), gpu::Constant(18, variant.sun),
-                                          gpu::Constant(19, by_angle), gpu::Constant(20, jitter)}))
-      .first->second;
+                                          gpu::Constant(18, variant.sun),
+                                          gpu::Constant(19, by_angle),
+                                          gpu::Constant(20, jitter)};
+  if (rows_) {
+    for (const gpu::Constant& count : epipolar::resolution_constants(rows_->grid().resolution()))
+      constants.push_back(count);
+    constants.emplace_back(11, true);  // some view rays may look away from the light
+    constants.emplace_back(17, static_cast<std::uint32_t>(epipolar::Query::light_rays));
+  } else {
+    constants.emplace_back(16, variant.plane);
+  }
+  const std::span<const std::uint32_t> fragment =
+      rows_ ? std::span<const std::uint32_t>(k_march_rows_frag) : k_march_frag;
+  return passes_.emplace(variant, frame::ray_pass(options_.rays, fragment, constants)).first->second;
 }
 
 std::optional<frame::Refusal> MarchOptions::refusal(const scene::View& view) const {
@@ -38,7 +53,6 @@ void March::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radi
   assert(!options_.refusal(inputs.view) && options_.rays.are_listed() == inputs.listed.has_value());
   const scene::View& view = inputs.view;
   const scene::Light& light = inputs.light();
-  const gpu::Texture& shadow_map = inputs.shadow_map(0.0);
   const gpu::Texture* light_texture = inputs.light_texture();
   const bool is_sun = scene::is_sun(light);
   const std::uint32_t layer = layer_of(view.medium, light, view.camera.eye);
@@ -55,14 +69,19 @@ void March::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radi
                                     : glm::distance(view.camera.eye, light.position);
   pass.pipeline().set(0, glm::uvec2(static_cast<std::uint32_t>(options_.steps),
                                     std::bit_cast<std::uint32_t>(static_cast<float>(reach))));
-  const shaders::EpipolarBlock block = gridless_space(view, light);
-  space_.write(&block, sizeof block);
+  if (rows_) {
+    rows_->find_ranges(inputs);
+    rows_->fill(inputs);
+  } else {
+    const shaders::EpipolarBlock block = gridless_space(view, light);
+    space_.write(&block, sizeof block);
+    space_.bind_uniform(shaders::k_space_block);
+    inputs.shadow_map(0.0).bind_sampler(shaders::k_shadow_map_unit);
+  }
   if (gather_ && scattered_.size() != radiance.size())
     scattered_ = gpu::Texture(radiance.format(), radiance.size());
   inputs.timer.time("integrate", [&] {
-    space_.bind_uniform(shaders::k_space_block);
     inputs.ray_surfaces().bind_sampler(shaders::k_surface_unit);
-    shadow_map.bind_sampler(shaders::k_shadow_map_unit);
     if (light_texture) light_texture->bind_sampler(shaders::k_light_texture_unit);
     pass.run({gather_ ? scattered_ : radiance});
     if (!gather_) return;
@@ -72,8 +91,10 @@ void March::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radi
 }
 
 std::map<std::string, std::int64_t> March::bytes() const {
-  if (!gather_) return {};
-  return {{"scattered", scattered_.bytes()}};
+  std::map<std::string, std::int64_t> bytes;
+  if (rows_) bytes = rows_->bytes();
+  if (gather_) bytes["scattered"] = scattered_.bytes();
+  return bytes;
 }
 
 std::map<std::string, double> March::counters(const frame::FrameInputs& inputs) {
@@ -105,12 +126,25 @@ frame::AirlightMethod march_method() {
           {{"off", "in the middle"},
            {"interleaved", "elsewhere for each of 4 x 4 pixels"},
            {"gathered", "so, and then the mean of such pixels of one surface"}},
-          &MarchOptions::jitter)};
+          &MarchOptions::jitter),
+      frame::word_option(
+          {.name = "look-up",
+           .meaning = "what is looked up",
+           .quality = "rows are as exact as their light rays are dense",
+           .cost = "rows are made once, and neighbours in them are neighbours in memory",
+           .sweep = {"map", "rows"}},
+          {{"map", "the shadow map"},
+           {"rows", "light rays of each half-plane, resampled from it: theta half-planes, phi rays"}},
+          &MarchOptions::look_up)};
+  for (frame::Option& option : frame::options_of(&MarchOptions::volume, epipolar::volume_options()))
+    if (option.text.name == "theta" || option.text.name == "phi") options.push_back(std::move(option));
   for (frame::Option& option : frame::options_of(&MarchOptions::rays, frame::view_rays_options()))
     options.push_back(std::move(option));
   return frame::describe<frame::Airlight, MarchOptions>(
-      "march", "look-ups of the shadow map along each view ray", {}, std::move(options),
-      [](const gpu::Context&, const MarchOptions& march) { return std::make_unique<March>(march); });
+      "march", "look-ups of the shadow map, or of its rows, along each view ray", {}, std::move(options),
+      [](const gpu::Context& context, const MarchOptions& march) {
+        return std::make_unique<March>(context, march);
+      });
 }
 
 }  // namespace airlight::media

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "epipolar/volume.h"
 #include "frame/method.h"
 #include "frame/screen_pass.h"
 #include "frame/view_rays.h"
@@ -27,32 +28,47 @@ enum class MarchJitter {
   gathered,     ///< so, and a pixel is the mean of such a square of one surface
 };
 
+/// What is looked up.
+enum class MarchLookUp {
+  map,   ///< the shadow map
+  rows,  ///< the first occluders of light rays in half-planes, to which the shadow map is resampled
+};
+
 struct MarchOptions {
   int steps = 32;
+  MarchLookUp look_up = MarchLookUp::map;
+  epipolar::VolumeOptions volume = {.query = epipolar::Query::light_rays};  ///< of rows
   MarchSpacing spacing = MarchSpacing::distance;
   MarchJitter jitter = MarchJitter::off;
   frame::ViewRays rays = {};
 
+  /// @throws scene::Error (usage) where a volume cannot be of these counts.
+  void validate() const { volume.validate(); }
+  void fit(const scene::View& view) { volume.fit(view); }
   bool needs_shadow_map() const { return true; }
   /// A phase function whose lobe is too narrow. And a mean over neighbours where rays are listed, which have
   /// none.
   std::optional<frame::Refusal> refusal(const scene::View& view) const;
 };
 
-/// `march`: airlight by look-ups of the shadow map along each view ray.
+/// `march`: airlight by look-ups of the shadow map along each view ray, or of its rows along the ray's
+/// half-plane.
 /// Based on: Tóth and Umenhoffer, "Real-time Volumetric Lighting in Participating Media", Eurographics 2009
 /// short papers, section 3. By angle: Kulla and Fajardo, "Importance Sampling Techniques for Path Tracing in
-/// Participating Media", EGSR 2012, section 4.1 (equi-angular sampling). Deviation: the light of a step is
-/// integrated over φ, as shaders/media/march.frag says, where they take its value at a point.
+/// Participating Media", EGSR 2012, section 4.1 (equi-angular sampling). Rows: the first step of Baran, Chen,
+/// Ragan-Kelley, Durand and Lehtinen, "A Hierarchical Volumetric Shadow Algorithm for Single Scattering",
+/// SIGGRAPH Asia 2010, section 3 (rectification). Deviation: the light of a step is integrated over φ, as
+/// shaders/media/march.frag says, where they take its value at a point.
 class March : public frame::Airlight {
  public:
-  explicit March(const MarchOptions& options);
+  /// @throws scene::Error as epipolar::ShadowVolume.
+  March(const gpu::Context& context, const MarchOptions& options);
 
   /// The options must not refuse the view.
   void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override;
   frame::ViewRays rays() const override { return options_.rays; }
   std::map<std::string, std::int64_t> bytes() const override;
-  /// "look_ups" of the shadow map.
+  /// "look_ups" of the map or of rows.
   std::map<std::string, double> counters(const frame::FrameInputs& inputs) override;
 
  private:
@@ -65,7 +81,8 @@ class March : public frame::Airlight {
   const frame::ScreenPass& load(const Variant& variant);
 
   MarchOptions options_;
-  gpu::Buffer space_;  ///< EpipolarBlock
+  gpu::Buffer space_;                           ///< EpipolarBlock of look-ups of the map
+  std::optional<epipolar::ShadowVolume> rows_;  ///< or what is looked up instead
   std::map<Variant, frame::ScreenPass> passes_;
   std::optional<frame::ScreenPass> gather_;
   gpu::Texture scattered_;  ///< of the size of the image, before it is gathered

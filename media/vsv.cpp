@@ -77,7 +77,7 @@ const Vsv::Programs& Vsv::load(const gpu::Context& context, const Variant& varia
   const auto grid = epipolar::resolution_constants(resolution);
   const gpu::Constant phase(3, variant.phase), channels(4, variant.channels);
   const gpu::Constant whole_voxels(8, options_.volume.populate == epipolar::Populate::conservative);
-  const gpu::Constant tree(17, options_.volume.query == epipolar::Query::tree);
+  const gpu::Constant query(17, static_cast<std::uint32_t>(options_.volume.query));
   const gpu::Constant rough(9, variant.rough), layer(10, variant.layer), looks_away(11, variant.looks_away);
   const gpu::Constant reach(12, variant.reach), light_textured(13, variant.colour_rows > 0);
   const gpu::Constant colour_rows(14, variant.colour_rows), colour_columns(15, variant.colour_columns);
@@ -86,7 +86,7 @@ const Vsv::Programs& Vsv::load(const gpu::Context& context, const Variant& varia
     table_ = gpu::Buffer(bytes);
     table_texels_ = {context.limits(), table_, gpu::Format::rgba32f, what};
   };
-  programs.of_ray = {grid[0], grid[1], grid[2], phase, whole_voxels, layer, looks_away, tree};
+  programs.of_ray = {grid[0], grid[1], grid[2], phase, whole_voxels, layer, looks_away, query};
   const auto pass = [&](std::span<const std::uint32_t> fragment, std::initializer_list<gpu::Constant> more) {
     std::vector<gpu::Constant> constants = programs.of_ray;
     constants.insert(constants.end(), more);

@@ -24,7 +24,8 @@ struct FrontError {
 inline constexpr FrontError k_front_errors[] = {
     {"rrmse", "same-surface rrmse", "same_surface_rrmse", {0.0025, 0.005, 0.01, 0.02, 0.05, 0.1}, 100.0},
     {"p99", "99th percentile of the error over the mean", "p99", {0.01, 0.02, 0.05, 0.1, 0.2, 0.5}, 100.0},
-    {"flip", "mean of HDR-FLIP", "flip", {0.005, 0.01, 0.02, 0.05, 0.1, 0.2}, 1.0}};
+    {"flip", "mean of HDR-FLIP", "flip", {0.005, 0.01, 0.02, 0.05, 0.1, 0.2}, 1.0},
+    {"flicker", "flicker along the path", "flicker", {0.0025, 0.005, 0.01, 0.02, 0.05, 0.1}, 100.0}};
 
 /// @throws scene::Error (usage) naming the words
 const FrontError& parse_front_error(std::string_view name);

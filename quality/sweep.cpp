@@ -237,13 +237,15 @@ class Sweep {
     run.cost.cpu_ms = timed.cpu_ms;
     run.cost.frames = timed.rounds;
     // What a path's frames have is kept in columns; a view is a path of one.
-    Json rrmse = Json::array(), same_surface = Json::array(), p99 = Json::array(), flip = Json::array();
+    Json rrmse = Json::array(), same_surface = Json::array(), p99 = Json::array(), flip = Json::array(),
+         flicker = Json::array();
     if (run.path.empty()) run.path.push_back({{}, run.errors});
     for (const Run::Frame& frame : run.path) {
       rrmse.push_back(number_json(frame.errors.airlight.rrmse));
       same_surface.push_back(number_json(frame.errors.same_surface.rrmse));
       p99.push_back(number_json(frame.errors.airlight.p99));
       flip.push_back(number_json(frame.errors.flip));
+      flicker.push_back(number_json(frame.flicker));
     }
     run.path.clear();
 
@@ -275,7 +277,8 @@ class Sweep {
                      {"rrmse", rrmse},
                      {"same_surface_rrmse", same_surface},
                      {"p99", p99},
-                     {"flip", flip}};
+                     {"flip", flip},
+                     {"flicker", flicker}};
     return text_of_json(line);
   }
 

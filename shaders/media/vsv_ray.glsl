@@ -10,11 +10,13 @@
 layout(constant_id = 8) const uint k_whole_voxels = 0;
 // Whether view rays of the frame look away from the light.
 layout(constant_id = 11) const uint k_looks_away = 0;
-// Whether what lies along view rays is asked of the tree (epipolar/change_tree.glsl), not of the bits.
-layout(constant_id = 17) const uint k_tree = 0;
+// What tells what lies along view rays: the bits, the tree (epipolar/change_tree.glsl), or the first shadowed cells of light rays.
+layout(constant_id = 17) const uint k_query = 0;
+const uint k_tree = 1u;
+const uint k_light_rays = 2u;
 
 layout(binding = k_surface_unit) uniform sampler2D surface_image;
-layout(binding = k_grid_unit) uniform usamplerBuffer grid_texels;  // bits, or nodes of the tree
+layout(binding = k_grid_unit) uniform usamplerBuffer grid_texels;  // of what is asked
 layout(location = 0) out vec4 airlight;
 
 // How far before the plane, in cells of φ, a bit has to lie to be trusted.
@@ -25,12 +27,21 @@ const float k_touch_slack = 0.25;
 // Where a wall is seen and lit at a grazing angle its voxels reach far before it.
 const float k_length_slack = 1e-4;
 
-// A bit of a row, by the row's first texel.
-bool is_bit_set(int row, uint cell) {
-  uvec4 words = texelFetch(grid_texels, row + int(cell >> 7));
-  uint word = cell >> 5 & 3u;
-  uint bits = word == 0u ? words.x : word == 1u ? words.y : word == 2u ? words.z : words.w;
-  return (bits >> (cell & 31u) & 1u) != 0u;
+// Whether a cell of a row of α is in shadow, by the first texel of the row's bits, or of its half-plane's light rays. Not of a tree.
+bool is_dark(int texel, uint row, uint cell) {
+  uint shift = k_query == k_light_rays ? 2u : 7u;  // by which a cell gives its texel
+  uvec4 words = texelFetch(grid_texels, texel + int(cell >> shift));
+  uint word = cell >> (shift - 2u) & 3u;
+  uint value = word == 0u ? words.x : word == 1u ? words.y : word == 2u ? words.z : words.w;
+  if (k_query == k_light_rays) return value <= row;
+  return (value >> (cell & 31u) & 1u) != 0u;
+}
+
+// The first texel of what a row is asked of.
+int row_texel(uint plane, uint row) {
+  if (k_query == k_tree) return int(plane * nodes_per_plane(k_phi_count));
+  if (k_query == k_light_rays) return int(plane * (k_phi_count / 4u));
+  return int((plane * k_alpha_count + row) * k_texels_per_ray);
 }
 
 struct VsvRay {
@@ -41,17 +52,18 @@ struct VsvRay {
   int last_valid;    // the last cell whose bit says something about this ray; −1 for none
   uint beyond_valid; // all bits set or none: what cells after that one hold
   uint row;          // its row of α
-  int texel;         // the first texel of that row's bits, or the root of its half-plane's tree
+  int texel;         // its first texel: of bits, of light rays, or the root of a tree
 };
 
 // Before the first cell that may say something: whether the row of α at π/2 is dark in the first one.
 bool is_dark_beside_eye(uint plane) {
   uint row = alpha_cell(space, 0.5 * k_pi, k_alpha_count);
-  if (k_tree != 0u) {
-    uint leaf = plane * nodes_per_plane(k_phi_count) + level_start(tree_levels(k_phi_count) - 1u);
-    return (texelFetch(grid_texels, int(leaf)).x & 0xffffu) <= row;  // what lies before its first light ray is lit
+  int texel = row_texel(plane, row);
+  if (k_query == k_tree) {
+    int leaf = texel + int(level_start(tree_levels(k_phi_count) - 1u));
+    return (texelFetch(grid_texels, leaf).x & 0xffffu) <= row;  // what lies before its first light ray is lit
   }
-  return is_bit_set(int((plane * k_alpha_count + row) * k_texels_per_ray), 0u);
+  return is_dark(texel, row, 0u);
 }
 
 VsvRay vsv_ray(ivec2 texel) {
@@ -66,7 +78,7 @@ VsvRay vsv_ray(ivec2 texel) {
   ray.end = cell_of_phi(ray.cells, ray.seen.phi_end);
   ray.last_cell = uint(clamp(floor(ray.end), 0.0, float(k_phi_count) - 1.0));
   ray.row = i;
-  ray.texel = int(k_tree != 0u ? j * nodes_per_plane(k_phi_count) : (j * k_alpha_count + i) * k_texels_per_ray);
+  ray.texel = row_texel(j, i);
 
   // The bits are those of the row's own ray, at the centre of its cell. Where that ray meets the surface's plane before this one
   // ends, its later bits tell of the other side of the surface: beyond a wall between eye and light they are lit, and as
@@ -95,16 +107,16 @@ VsvRay vsv_ray(ivec2 texel) {
     ray.last_valid = int(clamp(before, -1.0, float(ray.last_cell)));
     // The cells after it are like it. Where there is none they are lit where the surface faces the light, but for what looks away
     // from the light and ends within its first cell, on the light rays next to the eye: that is as dark as they are beside the eye.
-    bool is_dark = false;
+    bool is_beyond_dark = false;
     if (ray.last_valid < 0) {
-      is_dark = light_above(light, surface.xyz, surface.w * dot(surface.xyz, direction)) <= 0.0;
+      is_beyond_dark = light_above(light, surface.xyz, surface.w * dot(surface.xyz, direction)) <= 0.0;
       if (k_looks_away != 0u) {
-        if (ray.seen.angle.cosine < 0.0 && !is_dark) is_dark = is_dark_beside_eye(j);
+        if (ray.seen.angle.cosine < 0.0 && !is_beyond_dark) is_beyond_dark = is_dark_beside_eye(j);
       }
-    } else if (k_tree == 0u) {
-      is_dark = is_bit_set(ray.texel, uint(ray.last_valid));
+    } else if (k_query != k_tree) {
+      is_beyond_dark = is_dark(ray.texel, ray.row, uint(ray.last_valid));
     }
-    ray.beyond_valid = is_dark ? 0xffffffffu : 0u;
+    ray.beyond_valid = is_beyond_dark ? 0xffffffffu : 0u;
   }
   return ray;
 }
@@ -169,7 +181,7 @@ uint straddled(VsvRay ray, uint level, uint n) {
 
 Changes changes_along(VsvRay ray) {
   Changes changes = Changes(0u, uvec4(0u), 0u, 0u, 0u, 0u);
-  if (k_tree != 0u) {
+  if (k_query == k_tree) {
     uint top = tree_levels(k_phi_count) - 1u;
     // Where no cell says anything, the first one changes or none does.
     uint of_none = ray.beyond_valid & 1u;
@@ -181,14 +193,14 @@ Changes changes_along(VsvRay ray) {
 }
 
 bool has_changes(VsvRay ray, Changes changes) {
-  if (k_tree != 0u) return changes.open != 0u;
+  if (k_query == k_tree) return changes.open != 0u;
   return changes.bits != uvec4(0u) || changes.texel < texel_count(ray);
 }
 
 // The cell before which visibility changes next, or k_phi_count.
 uint next_change(VsvRay ray, inout Changes changes) {
   uint found = k_phi_count;
-  if (k_tree != 0u) {
+  if (k_query == k_tree) {
     int last = max(ray.last_valid, 0);
     while (found == k_phi_count && changes.open != 0u) {
       uint bit = uint(findLSB(changes.open));

@@ -1608,6 +1608,8 @@ TEST_F(Paths, AreSweptViewByView) {
     for (std::size_t i = 0; i < 5; ++i) {
       EXPECT_EQ(line["views"]["rrmse"][i], run["path"]["frames"][i]["rrmse"]);
       EXPECT_EQ(line["views"]["same_surface_rrmse"][i], run["path"]["frames"][i]["same_surface_rrmse"]);
+      EXPECT_EQ(line["views"]["flicker"][i], run["path"]["frames"][i]["flicker"]);
+      EXPECT_EQ(line["views"]["flicker"][i].is_null(), i == 0);
     }
     EXPECT_GT(line["timing"]["odd_ratio"]["median"], 0.0);
     EXPECT_GT(line["timing"]["even_ratio"]["median"], 0.0);

@@ -59,7 +59,7 @@ Rendered render_vsv(const scene::Geometry& geometry, const scene::View& view, co
 
 Rendered render_march(const scene::Geometry& geometry, const scene::View& view, const ViewRays& rays) {
   frame::Frame frame(tests::gpu_context(), geometry, 512);
-  media::March march({.steps = 64, .rays = rays});
+  media::March march(tests::gpu_context(), {.steps = 64, .rays = rays});
   return render(frame, view, march);
 }
 

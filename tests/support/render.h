@@ -46,7 +46,7 @@ inline frame::FrameImages render_airlight(const scene::Geometry& geometry, const
 
 inline frame::FrameImages render_march(const scene::Geometry& geometry, const scene::View& view,
                                        const media::MarchOptions& options, int shadow_map = 1024) {
-  media::March march(options);
+  media::March march(gpu_context(), options);
   return render_airlight(geometry, view, march, shadow_map);
 }
 

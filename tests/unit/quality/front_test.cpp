@@ -102,6 +102,23 @@ TEST_F(Fronts, AskAboutTheErrorThatIsNamed) {
   EXPECT_THROW(parse_front_error("psnr"), scene::Error);
 }
 
+TEST_F(Fronts, AskAboutFlickerWhereSomethingMoves) {
+  json of_path = line("vsv", 0.006, 1.0), of_view = line("march", 0.006, 0.5);
+  of_path["views"]["flicker"] = {nullptr, 0.004, 0.008, 0.004, 0.008};
+  for (const char* ratio : {"odd_ratio", "even_ratio"}) of_path["timing"][ratio] = interval(1.0, 0.1);
+  of_view["views"]["flicker"] = {nullptr};
+  const Front front = read({of_path, of_view}, "flicker").at(0);
+  // Chosen by the odd frames' 0.4 %, and judged by the even ones' 0.8, among which the first, which has none,
+  // does not count.
+  EXPECT_EQ(front.levels[1].best(), nullptr);
+  ASSERT_EQ(front.levels[1].methods.size(), 1u);
+  EXPECT_FALSE(front.levels[1].methods[0].holds);
+  ASSERT_NE(front.levels[2].best(), nullptr);
+  EXPECT_EQ(front.levels[2].best()->volume, "vsv");
+  EXPECT_DOUBLE_EQ(front.levels[2].best()->judged.error, 0.008);
+  EXPECT_EQ(front.levels[2].rival(), nullptr);
+}
+
 TEST_F(Fronts, LeadOnlyWhereTheIntervalExcludesOne) {
   const FrontLevel clear = at_one_percent(read({line("a", 0.01, 1.0), line("b", 0.01, 1.3)})[0]);
   EXPECT_DOUBLE_EQ(clear.lead().median, 1.3);

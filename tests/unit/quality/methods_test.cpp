@@ -55,7 +55,7 @@ TEST(MethodSpec, OwnKeysOverrideTheCommonOptions) {
   const std::vector<VolumeChoice> choices = parse_volumes(
       "vsv:alpha=7:phi=128,vsv:integral=riemann:scan=column:phi-cells=equal:populate=conservative,"
       "reference-sampled:samples=33,reference-march:steps=44:rays=single,none,"
-      "march:steps=9:spacing=angle:jitter=gathered",
+      "march:steps=9:spacing=angle:jitter=gathered:look-up=rows:theta=77",
       common);
   ASSERT_EQ(choices.size(), 6u);
   EXPECT_EQ(vsv_of(choices[0]).volume.resolution, (epipolar::Resolution{7, 200, 128}));
@@ -74,6 +74,8 @@ TEST(MethodSpec, OwnKeysOverrideTheCommonOptions) {
   EXPECT_EQ(march.steps, 9);
   EXPECT_EQ(march.spacing, media::MarchSpacing::angle);
   EXPECT_EQ(march.jitter, media::MarchJitter::gathered);
+  EXPECT_EQ(march.look_up, media::MarchLookUp::rows);
+  EXPECT_EQ(march.volume.resolution.theta, 77);
 }
 
 TEST(MethodSpec, MistakesAreNamedWithWhatIsValid) {
