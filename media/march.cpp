@@ -136,8 +136,11 @@ frame::AirlightMethod march_method() {
           {{"map", "the shadow map"},
            {"rows", "light rays of each half-plane, resampled from it: theta half-planes, phi rays"}},
           &MarchOptions::look_up)};
-  for (frame::Option& option : frame::options_of(&MarchOptions::volume, epipolar::volume_options()))
-    if (option.text.name == "theta" || option.text.name == "phi") options.push_back(std::move(option));
+  for (frame::Option& option : frame::options_of(&MarchOptions::volume, epipolar::volume_options())) {
+    if (option.text.name != "theta" && option.text.name != "phi") continue;
+    option.text.is_common = false;  // of rows alone
+    options.push_back(std::move(option));
+  }
   for (frame::Option& option : frame::options_of(&MarchOptions::rays, frame::view_rays_options()))
     options.push_back(std::move(option));
   return frame::describe<frame::Airlight, MarchOptions>(
