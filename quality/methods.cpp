@@ -74,8 +74,8 @@ Choice<MethodType> parse_choice(const std::string& option, std::string_view spec
 
   Choice<MethodType> choice{std::string(spec), &*method, method->defaults};
   for (const CommonOption& given : common) {
-    if (const frame::Option* known = method->find(given.name))
-      known->set(method->address(choice.options), given.where, given.value);
+    const frame::Option* known = method->find(given.name);
+    if (known && known->text.is_common) known->set(method->address(choice.options), given.where, given.value);
   }
   const std::string where = fmt::format("{} {}", option, spec);
   for (std::string_view part : std::span(parts).subspan(1)) {
@@ -263,7 +263,9 @@ namespace {
 /// Whether a method with these options looks at that option, of those that are meant for all methods.
 template <typename MethodType>
 bool reads(const MethodType& method, const std::any& options, std::string_view name) {
-  return name == "shadow-map" ? method.needs_shadow_map(options) : method.find(name) != nullptr;
+  if (name == "shadow-map") return method.needs_shadow_map(options);
+  const frame::Option* option = method.find(name);
+  return option && option->text.is_common;
 }
 
 bool is_for_methods(std::string_view name) {
