@@ -9,6 +9,9 @@ namespace airlight::app {
 
 void render(const Options& options);
 
+/// Opens a window on the scene: see viewer::Viewer.
+void view(const Options& options);
+
 /// @throws scene::Error (threshold_missed) after everything is written, when --max-error or --max-undecided
 /// is missed
 void compare(const Options& options);

@@ -47,7 +47,7 @@ CLI::App& add_image_command(CLI::App& app, Options& options, const char* name, c
 /// be.
 /// @returns Options::given
 std::vector<std::pair<std::string, std::string>> read_words(const CLI::App& app, int argc, char** argv) {
-  constexpr const char* k_commands = "use render, compare, sweep, front, scenes or info";
+  constexpr const char* k_commands = "use view, render, compare, sweep, front, scenes or info";
   if (argc < 2) throw Error(ExitCode::usage, "command line", "it names no command", k_commands);
   if (argv[1][0] == '-') {
     if (app.get_option_no_throw(argv[1])) return {};
@@ -102,6 +102,14 @@ int run(int argc, char** argv) {
       ->type_name("FILE.exr");
   add_option(render_command, {"volume", "METHOD", "airlight (default: vsv)"});
   add_option(render_command, {"surface", "METHOD", "surface shadow (default: shadow-map)"});
+
+  CLI::App& view_command = add_image_command(app, options, "view", "opens a window to fly through a scene");
+  view_command
+      .add_option("-o", options.output,
+                  "folder for the pictures, shots and paths made there (default: out/SCENE)")
+      ->type_name("DIR");
+  add_option(view_command, {"volume", "METHOD", "airlight to begin with (default: vsv)"});
+  add_option(view_command, {"surface", "METHOD", "surface shadow to begin with (default: shadow-map)"});
 
   CLI::App& compare_command = add_image_command(
       app, options, "compare", "measures methods against the reference: time, error, images, report");
@@ -158,6 +166,7 @@ int run(int argc, char** argv) {
   add_option(sweep_command,
              {"shard", "K/N", "only a part of the settings, from 1/N to N/N, in DIR/runs-K-of-N.jsonl"});
   render_command.footer(quality::method_help());
+  view_command.footer(quality::method_help());
   sweep_command.footer(quality::method_help());
   compare_command.footer(quality::method_help());
 
@@ -189,6 +198,9 @@ int run(int argc, char** argv) {
   if (render_command.parsed()) {
     require_scene("airlight render window -o out.exr");
     render(options);
+  } else if (view_command.parsed()) {
+    if (options.scene.empty()) options.scene = "window";
+    view(options);
   } else if (compare_command.parsed()) {
     if (options.scene.empty()) options.scene = "window";
     compare(options);

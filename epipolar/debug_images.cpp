@@ -1,8 +1,12 @@
 #include "epipolar/debug_images.h"
 
+#include <algorithm>
 #include <bit>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "epipolar/space_math.h"
 #include "frame/screen_pass.h"
 
 #include "spirv/epipolar/shadowed_samples_frag.h"
@@ -71,6 +75,33 @@ frame::DebugImage shadowed_samples(const Grid& grid, const frame::FrameInputs& i
 }
 
 }  // namespace
+
+frame::DebugImage debug_slice(const ShadowVolume& volume, glm::vec3 direction) {
+  const Grid& grid = volume.grid();
+  const auto& [alpha, theta, phi] = grid.resolution();
+  const shaders::EpipolarBlock& space = volume.block();
+  const auto rows = static_cast<std::uint32_t>(std::min(alpha, k_longest_side / 8));
+  const std::uint32_t plane =
+      shaders::theta_cell(space, shaders::theta_of(space, direction), static_cast<std::uint32_t>(theta));
+  const shaders::Angle of_ray = shaders::alpha_of(shaders::eye_angle(space, direction, 0.0f));
+  const std::uint32_t row = shaders::alpha_cell(space, of_ray, static_cast<std::uint32_t>(alpha));
+  const std::vector<std::uint32_t> first =
+      grid.first_shadowed().read<std::uint32_t>(std::int64_t{plane} * phi, phi);
+  frame::DebugImage image{"slice",
+                          fmt::format("half-plane {} of {}, row {} of {}: shadow is dark, φ to the right",
+                                      plane, theta, row, alpha),
+                          {phi, static_cast<int>(rows)},
+                          {}};
+  const std::uint32_t cells = static_cast<std::uint32_t>(alpha) / rows;
+  for (std::uint32_t i = 0; i < rows; ++i)
+    for (const std::uint32_t start : first) {
+      const bool is_own = i == std::min(row / cells, rows - 1);
+      image.values.push_back(is_own               ? (start <= i * cells ? 0.35f : 0.65f)
+                             : start <= i * cells ? 0.0f
+                                                  : 1.0f);
+    }
+  return image;
+}
 
 std::vector<frame::DebugImage> debug_images(ShadowVolume& volume, const frame::FrameInputs& inputs) {
   const Grid& grid = volume.grid();

@@ -16,4 +16,9 @@ namespace airlight::epipolar {
 /// Leaves the grid unscanned.
 std::vector<frame::DebugImage> debug_images(ShadowVolume& volume, const frame::FrameInputs& inputs);
 
+/// The half-plane that a view ray lies in: a row for each α, φ to the right, 0 where a voxel is in shadow.
+/// The ray's own row is grey.
+/// @param direction of the ray, unit length
+frame::DebugImage debug_slice(const ShadowVolume& volume, glm::vec3 direction);
+
 }  // namespace airlight::epipolar

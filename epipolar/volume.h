@@ -107,6 +107,8 @@ class ShadowVolume {
   }
 
   const Grid& grid() const { return grid_; }
+  /// What the last `find_ranges` returned.
+  const shaders::EpipolarBlock& block() const { return found_.block; }
   std::map<std::string, std::int64_t> bytes() const;  ///< memory on the GPU, by name
 
  private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -98,9 +99,10 @@ void write_block(const gpu::Buffer& buffer, const Block& block, unsigned binding
 
 }  // namespace
 
-Frame::Frame(gpu::Context& context, const scene::Geometry& geometry, int shadow_map_size)
+Frame::Frame(gpu::Context& context, const scene::Geometry& geometry, int shadow_map_size,
+             std::shared_ptr<const SceneBuffers> scene)
     : context_(context),
-      resources_(context, geometry, shadow_map_size),
+      resources_(context, geometry, shadow_map_size, std::move(scene)),
       camera_block_(sizeof(shaders::CameraBlock)),
       light_block_(sizeof(shaders::LightBlock)),
       medium_block_(sizeof(shaders::MediumBlock)) {}

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -41,7 +42,9 @@ class Frame {
  public:
   /// @param geometry kept by reference: it must outlive the frame
   /// @param shadow_map_size side of a cube face [texels]; used only by methods that ask for a shadow map
-  Frame(gpu::Context& context, const scene::Geometry& geometry, int shadow_map_size);
+  /// @param scene see Resources
+  Frame(gpu::Context& context, const scene::Geometry& geometry, int shadow_map_size,
+        std::shared_ptr<const SceneBuffers> scene = {});
 
   /// Issues all work of one frame to the GPU, without waiting for it where `timer` is off. Of the timer's
   /// parts number i is that of light i. A light that cannot reach the view is skipped, unless a method sees
@@ -55,6 +58,10 @@ class Frame {
 
   /// What the last frame made for its lights: of "shadow_map", any face of it, and "volume".
   const std::set<std::string>& redrawn() const { return resources_.redrawn(); }
+
+  // Of the last frame, on the GPU, rgba32f; row 0 at the top:
+  const gpu::Texture& radiance() const { return radiance_; }  ///< as FrameImages::radiance
+  const gpu::Texture& airlight() const { return airlight_; }  ///< as FrameImages::airlight
 
   /// Waits for the last frame.
   /// @throws scene::Error (driver) when it holds NaN or infinity: never shown as a colour.

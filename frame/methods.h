@@ -118,6 +118,11 @@ class Airlight {
   /// Pictures of what `integrate`, called just before with the same inputs, left on the GPU. They may cost
   /// it: the next call is to `integrate`.
   virtual std::vector<DebugImage> debug_images(const FrameInputs&) { return {}; }
+
+  /// A picture of what `integrate` left of its last light along the view ray through a place of the image, in
+  /// pixels; none where a method has nothing to show, or the place is none of its own.
+  /// @param view of that frame
+  virtual std::optional<DebugImage> debug_slice(const scene::View&, glm::dvec2) { return {}; }
 };
 
 }  // namespace airlight::frame

@@ -1,6 +1,7 @@
 #include "frame/resources.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,8 +13,12 @@
 
 namespace airlight::frame {
 
-Resources::Resources(gpu::Context& context, const scene::Geometry& geometry, int shadow_map_size)
-    : context_(context), geometry_(geometry), scene_(context, geometry), shadow_map_size_(shadow_map_size) {}
+Resources::Resources(gpu::Context& context, const scene::Geometry& geometry, int shadow_map_size,
+                     std::shared_ptr<const SceneBuffers> scene)
+    : context_(context),
+      geometry_(geometry),
+      scene_(scene ? std::move(scene) : std::make_shared<const SceneBuffers>(context, geometry)),
+      shadow_map_size_(shadow_map_size) {}
 
 bool Resources::OfMap::operator==(const OfMap& other) const {
   return scene::shine_alike(light, other.light) && plane == other.plane && near == other.near &&
@@ -34,13 +39,13 @@ void Resources::begin_light(const scene::Light& light, const scene::CameraFrame&
   light_ = &light;
   camera_ = camera;
   has_surface_points_ = false;
-  shadow_plane_ = fit_shadow_plane(light, camera, scene_.box(), shadow_map_size_);
+  shadow_plane_ = fit_shadow_plane(light, camera, scene_->box(), shadow_map_size_);
   triangles_at_light_.clear();
   light_near_ = 0.0f;
   if (!shadow_plane_) {
     const double distance = glm::distance(light.position, camera.eye);
-    triangles_at_light_ = scene_.triangles_at(light.position, distance);
-    light_near_ = near_depth(scene_, light.position, distance);
+    triangles_at_light_ = scene_->triangles_at(light.position, distance);
+    light_near_ = near_depth(*scene_, light.position, distance);
   }
 
   // What there is of a shadow map serves this light, or goes.
@@ -72,7 +77,7 @@ const gpu::Texture& Resources::shadow_map(double reach, gpu::StageTimer& timer) 
   if (shadow_plane_) {
     if (!shadow_plane_map_) shadow_plane_map_.emplace(context_, shadow_map_size_);
     if (!drawn_plane_map_) {
-      timer.time("shadow_map", [&] { shadow_plane_map_->draw(scene_, *shadow_plane_); });
+      timer.time("shadow_map", [&] { shadow_plane_map_->draw(*scene_, *shadow_plane_); });
       drawn_plane_map_ = of_map();
       note_redrawn("shadow_map");
     }
@@ -83,7 +88,7 @@ const gpu::Texture& Resources::shadow_map(double reach, gpu::StageTimer& timer) 
   const CubeFaces faces = needed_faces(camera_, light_->position, reach);
   if (!shadow_map_->has(faces)) {
     timer.time("shadow_map",
-               [&] { shadow_map_->draw(scene_, light_->position, triangles_at_light_, faces); });
+               [&] { shadow_map_->draw(*scene_, light_->position, triangles_at_light_, faces); });
     drawn_cube_ = of_map();
     note_redrawn("shadow_map");
   }
@@ -97,7 +102,7 @@ const gpu::Texture& Resources::surface_points(const gpu::Texture& triangles, gpu
   if (surface_points_.size() != triangles.size())
     surface_points_ = gpu::Texture(gpu::Format::rgba32f, triangles.size());
   timer.time("surface_points",
-             [&] { surface_point_pass_->run(scene_, triangles, origin(), surface_points_); });
+             [&] { surface_point_pass_->run(*scene_, triangles, origin(), surface_points_); });
   has_surface_points_ = true;
   used_surface_points_ = true;
   return surface_points_;
@@ -110,7 +115,7 @@ const gpu::TexelView& Resources::triangle_planes(gpu::StageTimer& timer) {
     const std::vector<std::uint32_t> of_geometry = scene::planes_of(geometry_);
     std::vector<std::uint32_t> planes;
     planes.reserve(of_geometry.size());
-    for (const std::uint32_t triangle : scene_.order()) planes.push_back(of_geometry[triangle]);
+    for (const std::uint32_t triangle : scene_->order()) planes.push_back(of_geometry[triangle]);
     triangle_planes_ = gpu::Buffer::from(std::span<const std::uint32_t>(planes));
     triangle_plane_texels_.emplace(context_.limits(), triangle_planes_, gpu::Format::r32ui,
                                    "the model's triangles");
@@ -132,7 +137,7 @@ const scene::Components& Resources::components(gpu::StageTimer& timer) {
 }
 
 std::map<std::string, std::int64_t> Resources::bytes() const {
-  std::map<std::string, std::int64_t> bytes = {{"scene", scene_.bytes()}};
+  std::map<std::string, std::int64_t> bytes = {{"scene", scene_->bytes()}};
   if (shadow_map_bytes_ > 0) bytes["shadow_map"] = shadow_map_bytes_;
   if (used_triangle_planes_) bytes["triangle_planes"] = triangle_planes_.bytes();
   if (used_surface_points_) bytes["surface_points"] = surface_points_.bytes();

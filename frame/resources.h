@@ -32,10 +32,12 @@ class Resources {
  public:
   /// @param geometry kept by reference
   /// @param shadow_map_size side of a cube face [texels]
-  Resources(gpu::Context& context, const scene::Geometry& geometry, int shadow_map_size);
+  /// @param scene of the same geometry; frames of several sizes may share it. Made here without.
+  Resources(gpu::Context& context, const scene::Geometry& geometry, int shadow_map_size,
+            std::shared_ptr<const SceneBuffers> scene = {});
 
   const scene::Geometry& geometry() const { return geometry_; }
-  const SceneBuffers& scene() const { return scene_; }
+  const SceneBuffers& scene() const { return *scene_; }
   int shadow_map_size() const { return shadow_map_size_; }
 
   void begin_frame(Resting resting);
@@ -92,7 +94,7 @@ class Resources {
  private:
   gpu::Context& context_;
   const scene::Geometry& geometry_;
-  SceneBuffers scene_;
+  std::shared_ptr<const SceneBuffers> scene_;
   int shadow_map_size_;
 
   std::optional<ShadowMap> shadow_map_;

@@ -54,9 +54,9 @@ void Buffer::clear(std::uint32_t word) const {
   glClearNamedBufferData(name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &word);
 }
 
-void Buffer::read_bytes(void* destination) const {
+void Buffer::read_bytes(std::int64_t offset, std::int64_t bytes, void* destination) const {
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  glGetNamedBufferSubData(name(), 0, bytes_, destination);
+  glGetNamedBufferSubData(name(), offset, bytes, destination);
 }
 
 }  // namespace airlight::gpu

@@ -42,12 +42,21 @@ class Buffer {
   template <typename T>
   std::vector<T> read() const {
     std::vector<T> values(static_cast<std::size_t>(bytes_) / sizeof(T));
-    read_bytes(values.data());
+    read_bytes(0, bytes_, values.data());
+    return values;
+  }
+
+  /// The same of `count` values from number `first` on.
+  template <typename T>
+  std::vector<T> read(std::int64_t first, std::int64_t count) const {
+    std::vector<T> values(static_cast<std::size_t>(count));
+    constexpr auto k_bytes = static_cast<std::int64_t>(sizeof(T));
+    read_bytes(first * k_bytes, count * k_bytes, values.data());
     return values;
   }
 
  private:
-  void read_bytes(void* destination) const;
+  void read_bytes(std::int64_t offset, std::int64_t bytes, void* destination) const;
 
   Handle<delete_buffer> handle_;
   std::int64_t bytes_ = 0;

@@ -85,4 +85,12 @@ void Framebuffer::clear(float depth, int stencil) const {
   if (has_stencil_) glClearNamedFramebufferiv(handle_.get(), GL_STENCIL, 0, &stencil);
 }
 
+void stretch(const Texture& image, const Region& part, const Texture& over, const Region& over_part,
+             bool smoothly) {
+  const Framebuffer source({image}), target({over});
+  glBlitNamedFramebuffer(source.name(), target.name(), part.from.x, part.from.y, part.to.x, part.to.y,
+                         over_part.from.x, over_part.from.y, over_part.to.x, over_part.to.y,
+                         GL_COLOR_BUFFER_BIT, smoothly ? GL_LINEAR : GL_NEAREST);
+}
+
 }  // namespace airlight::gpu

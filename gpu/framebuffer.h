@@ -35,6 +35,8 @@ class Framebuffer {
   /// Makes it the target of draws, with a viewport over all of it.
   void bind() const;
 
+  unsigned name() const { return handle_.get(); }
+
   /// Sets colours to 0, and depth and stencil to what is given.
   void clear(float depth = 0.0f, int stencil = 0) const;
 
@@ -44,5 +46,16 @@ class Framebuffer {
   std::vector<bool> colour_is_float_;
   bool has_depth_ = false, has_stencil_ = false;
 };
+
+/// A part of an image, from one corner to the opposite one [texels]; turned over where `to` lies before
+/// `from`.
+struct Region {
+  glm::ivec2 from, to;
+};
+
+/// Copies a part of a colour image over a part of another, stretched to fit it.
+/// @param smoothly interpolated between texels, else of the nearest
+void stretch(const Texture& image, const Region& part, const Texture& over, const Region& over_part,
+             bool smoothly);
 
 }  // namespace airlight::gpu

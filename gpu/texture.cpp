@@ -38,6 +38,8 @@ FormatInfo format_info(Format format) {
       return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16, 16};
     case Format::depth32f:
       return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4, 4};
+    case Format::rgba8:
+      return {GL_RGBA8, GL_RGBA, GL_FLOAT, 16, 4};
     case Format::depth32f_stencil8:
       return {GL_DEPTH32F_STENCIL8, GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, 8, 8};
   }

@@ -28,7 +28,8 @@ enum class Format {
   rgb32f,
   rgba32f,
   depth32f,
-  depth32f_stencil8
+  depth32f_stencil8,
+  rgba8,  ///< colours from 0 to 1, as windows have them
 };
 
 /// Leaves no texture bound for sampling or as an image.

@@ -210,14 +210,18 @@ std::map<std::string, std::int64_t> Vsv::bytes() const {
   return bytes;
 }
 
-std::map<std::string, double> Vsv::counters(const frame::FrameInputs& inputs) {
+gpu::Texture Vsv::count(const frame::FrameInputs& inputs) const {
   const frame::ScreenPass pass = frame::ray_pass(options_.rays, k_vsv_count_frag, last_->of_ray);
-  const gpu::Texture counts(gpu::Format::rgba32f, inputs.ray_surfaces().size());
+  gpu::Texture counts(gpu::Format::rgba32f, inputs.ray_surfaces().size());
   counts.clear();
   inputs.ray_surfaces().bind_sampler(shaders::k_surface_unit);
   pass.run({counts});
+  return counts;
+}
+
+std::map<std::string, double> Vsv::counters(const frame::FrameInputs& inputs) {
   double changes = 0.0, reads = 0.0;
-  for (const glm::vec4& ray : counts.read<glm::vec4>()) {
+  for (const glm::vec4& ray : count(inputs).read<glm::vec4>()) {
     changes += static_cast<double>(ray.x);
     reads += static_cast<double>(ray.y);
   }
@@ -225,7 +229,24 @@ std::map<std::string, double> Vsv::counters(const frame::FrameInputs& inputs) {
 }
 
 std::vector<frame::DebugImage> Vsv::debug_images(const frame::FrameInputs& inputs) {
-  return epipolar::debug_images(volume_, inputs);
+  if (inputs.listed) return epipolar::debug_images(volume_, inputs);
+  constexpr float k_most = 64.0f;
+  const gpu::Texture counts = count(inputs);
+  frame::DebugImage changes{"changes", "changes of visibility along each view ray, of 64", counts.size(), {}};
+  for (const glm::vec4& ray : counts.read<glm::vec4>())
+    changes.values.push_back(std::min(ray.x / k_most, 1.0f));
+  std::vector<frame::DebugImage> images = epipolar::debug_images(volume_, inputs);
+  images.push_back(std::move(changes));
+  return images;
+}
+
+std::optional<frame::DebugImage> Vsv::debug_slice(const scene::View& view, glm::dvec2 place) {
+  if (!last_ || options_.volume.populate == epipolar::Populate::screen_space) return {};
+  const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
+  const glm::dvec3 ray = camera.forward +
+                         (2.0 * place.x / view.size.x - 1.0) * camera.half_width * camera.right +
+                         (1.0 - 2.0 * place.y / view.size.y) * camera.half_height * camera.up;
+  return epipolar::debug_slice(volume_, glm::vec3(glm::normalize(ray)));
 }
 
 frame::AirlightMethod vsv_method() {

@@ -67,7 +67,11 @@ class Vsv : public frame::Airlight {
   std::map<std::string, std::int64_t> bytes() const override;
   /// "changes" of visibility, and "reads" of 128 bits, by which they are found.
   std::map<std::string, double> counters(const frame::FrameInputs& inputs) override;
+  /// Those of epipolar::debug_images, and where pixels are asked
+  /// "changes": how often visibility changes along each view ray, of 64.
   std::vector<frame::DebugImage> debug_images(const frame::FrameInputs& inputs) override;
+  /// Not of Populate::screen_space.
+  std::optional<frame::DebugImage> debug_slice(const scene::View& view, glm::dvec2 place) override;
 
   const epipolar::ShadowVolume& volume() const { return volume_; }
 
@@ -89,6 +93,8 @@ class Vsv : public frame::Airlight {
     std::vector<gpu::Constant> of_ray;  ///< of shaders/media/vsv_ray.glsl
   };
   /// Those of a variant, and a table with room for it. Lights of a frame may be of different ones, in turns.
+  /// What vsv_count.frag finds along each view ray.
+  gpu::Texture count(const frame::FrameInputs& inputs) const;
   const Programs& load(const gpu::Context& context, const Variant& variant);
 
   VsvOptions options_;

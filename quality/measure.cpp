@@ -12,6 +12,7 @@
 
 #include "frame/none.h"
 #include "frame/point_reader.h"
+#include "quality/probes.h"
 #include "quality/statistics.h"
 
 namespace airlight::quality {
@@ -45,40 +46,6 @@ std::map<std::string, double> median_stages(const Frames& frames, const Stages& 
   for (const auto& [stage, times_of_stage] : times) medians[stage] = median(times_of_stage);
   return medians;
 }
-
-/// Looks at what an airlight method has left behind of each light.
-class AirlightProbe : public frame::Airlight {
- public:
-  using Look = std::function<void(const frame::FrameInputs& inputs)>;
-  AirlightProbe(frame::Airlight& airlight, Look look) : airlight_(airlight), look_(std::move(look)) {}
-  void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override {
-    airlight_.integrate(inputs, radiance);
-    look_(inputs);
-  }
-  frame::ViewRays rays() const override { return airlight_.rays(); }
-  bool sees_every_light() const override { return airlight_.sees_every_light(); }
-
- private:
-  frame::Airlight& airlight_;
-  Look look_;
-};
-
-/// The same of a method of surface shadow.
-class ShadowProbe : public frame::SurfaceShadow {
- public:
-  using Look = AirlightProbe::Look;
-  ShadowProbe(frame::SurfaceShadow& shadow, Look look) : shadow_(shadow), look_(std::move(look)) {}
-  gpu::Format visibility_format() const override { return shadow_.visibility_format(); }
-  void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override {
-    shadow_.query(inputs, visibility);
-    look_(inputs);
-  }
-  bool sees_every_light() const override { return shadow_.sees_every_light(); }
-
- private:
-  frame::SurfaceShadow& shadow_;
-  Look look_;
-};
 
 }  // namespace
 

@@ -1,0 +1,131 @@
+#include "viewer/ladder.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "frame/option.h"
+#include "quality/probes.h"
+
+namespace airlight::viewer {
+namespace {
+
+/// Kept of each rung: what is automatic takes one of two values.
+constexpr std::size_t k_kept_methods = 2;
+
+/// A count of a method's cells made smaller, as far as the option allows.
+template <typename MethodType>
+void shrink(quality::Choice<MethodType>& choice, double part) {
+  for (const char* name : {"alpha", "theta", "phi"}) {
+    const frame::Option* option = choice.method->find(name);
+    if (!option) continue;
+    const auto* counts = std::get_if<frame::Counts>(&option->values);
+    const frame::OptionValue value = option->get(choice.method->const_address(choice.options));
+    if (!counts || !std::holds_alternative<int>(value)) continue;
+    const int step = counts->multiple_of;
+    const int count = static_cast<int>(std::round(std::get<int>(value) * part / step)) * step;
+    // A count that an option derives from another cannot be set, and stays.
+    option->set(choice.method->address(choice.options), name,
+                fmt::format("{}", std::clamp(count, std::max(counts->least, step), std::get<int>(value))));
+  }
+}
+
+template <typename MethodType>
+std::string text_of(const quality::Choice<MethodType>& choice) {
+  std::string text(choice.method->name);
+  for (const auto& [name, value] : choice.values())
+    text += fmt::format(":{}={}", name, frame::text_of(value));
+  return text;
+}
+
+}  // namespace
+
+Ladder::Ladder(gpu::Context& context, const scene::Geometry& geometry,
+               std::shared_ptr<const frame::SceneBuffers> scene)
+    : context_(context), geometry_(geometry), scene_(std::move(scene)) {}
+
+void Ladder::show(const Shown& shown) {
+  const bool is_other = !shown_ || text_of(shown_->volume) != text_of(shown.volume) ||
+                        text_of(shown_->surface) != text_of(shown.surface) ||
+                        shown_->shadow_map != shown.shadow_map || shown_->view.size != shown.view.size;
+  shown_ = shown;
+  if (is_other)
+    for (OfRung& rung : of_rung_) rung.reset();
+}
+
+glm::ivec2 Ladder::size(std::size_t rung) const {
+  const glm::dvec2 size = k_rungs[rung].image * glm::dvec2(shown_->view.size);
+  return glm::max(glm::ivec2(glm::round(size)), glm::ivec2(1));
+}
+
+Shown Ladder::shown(std::size_t rung) const {
+  Shown shown = *shown_;
+  shown.view.size = size(rung);
+  shown.shadow_map = std::max(static_cast<int>(std::lround(k_rungs[rung].shadow_map * shown.shadow_map)), 1);
+  shown.volume.fit(shown.view);
+  shown.surface.fit(shown.view);
+  if (rung > 0) {
+    shrink(shown.volume, k_rungs[rung].cells);
+    shrink(shown.surface, k_rungs[rung].cells);
+  }
+  return shown;
+}
+
+const frame::Frame& Ladder::draw(std::size_t rung, gpu::StageTimer& timer, frame::Resting resting) {
+  const Shown drawn = shown(rung);
+  OfRung& of_rung = of_rung_[rung];
+  if (!of_rung.frame) of_rung.frame.emplace(context_, geometry_, drawn.shadow_map, scene_);
+  const std::string text = text_of(drawn.volume) + text_of(drawn.surface);
+  auto made = of_rung.methods.find(text);
+  const bool compiles = made == of_rung.methods.end();
+  if (compiles) {
+    if (of_rung.methods.size() == k_kept_methods) of_rung.methods.clear();
+    Made methods{drawn.volume.method->make(context_, drawn.volume.options),
+                 drawn.surface.method->make(context_, drawn.surface.options)};
+    made = of_rung.methods.emplace(text, std::move(methods)).first;
+  }
+  of_rung.made = &made->second;
+  const auto start = std::chrono::steady_clock::now();
+  of_rung.frame->render(drawn.view, *of_rung.made->surface, *of_rung.made->airlight, timer, resting);
+  context_.finish();
+  const double ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  if (!compiles) ++of_rung.frames;
+  of_rung.ms = ms;
+  return *of_rung.frame;
+}
+
+std::vector<frame::DebugImage> Ladder::inspect(std::size_t rung) {
+  const Shown drawn = shown(rung);
+  OfRung& of_rung = of_rung_[rung];
+  std::vector<frame::DebugImage> images;
+  quality::AirlightProbe probe(*of_rung.made->airlight, [&](const frame::FrameInputs& inputs) {
+    std::vector<frame::DebugImage> of_light = of_rung.made->airlight->debug_images(inputs);
+    if (inputs.light_index == 0) images = std::move(of_light);  // one light's are enough to look at
+  });
+  gpu::StageTimer off(nullptr);
+  of_rung.frame->render(drawn.view, *of_rung.made->surface, probe, off);
+  // They may have cost it what it had.
+  of_rung.frame->render(drawn.view, *of_rung.made->surface, *of_rung.made->airlight, off);
+  context_.finish();
+  return images;
+}
+
+std::optional<double> Ladder::ms(std::size_t rung) const {
+  return of_rung_[rung].frames > 0 ? of_rung_[rung].ms : std::nullopt;
+}
+
+std::int64_t Ladder::bytes(std::size_t rung) const {
+  const OfRung& of_rung = of_rung_[rung];
+  if (!of_rung.frame || !of_rung.made) return 0;
+  std::int64_t sum = 0;
+  for (const auto& [name, bytes] : of_rung.frame->bytes()) sum += name == "scene" ? 0 : bytes;
+  for (const auto& [name, bytes] : of_rung.made->airlight->bytes()) sum += bytes;
+  for (const auto& [name, bytes] : of_rung.made->surface->bytes()) sum += bytes;
+  return sum;
+}
+
+}  // namespace airlight::viewer

@@ -1,0 +1,112 @@
+#include "viewer/shown.h"
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "quality/results.h"
+#include "scene/choices.h"
+#include "scene/view_fields.h"
+
+namespace airlight::viewer {
+namespace {
+
+/// A light's values, what makes it what it is first.
+std::vector<std::pair<const scene::FieldInfo*, std::string>> values_of(const scene::Light& light) {
+  std::vector<std::pair<const scene::FieldInfo*, std::string>> values;
+  scene::for_each_value(light, [&](const scene::FieldInfo& field, const scene::FieldValue& value) {
+    values.emplace_back(&field, scene::text_of(value));
+  });
+  std::stable_partition(values.begin(), values.end(),
+                        [](const auto& value) { return scene::names_light(*value.first); });
+  return values;
+}
+
+/// A value as TOML has it: words in quotes, numbers in brackets where there are several.
+std::string toml_of(const scene::FieldInfo& field, const std::string& text) {
+  if (field.kind == scene::FieldKind::word || field.kind == scene::FieldKind::file) {
+    std::string quoted = "\"";
+    for (const char c : text) {
+      if (c == '"' || c == '\\') quoted += '\\';
+      quoted += c;
+    }
+    return quoted + '"';
+  }
+  if (text.find(',') == std::string::npos) return text;
+  std::string list = "[";
+  for (const char c : text) list += c == ',' ? std::string(", ") : std::string(1, c);
+  return list + ']';
+}
+
+}  // namespace
+
+template <typename MethodType>
+std::string spec_of(const quality::Choice<MethodType>& choice) {
+  std::string spec(choice.method->name);
+  const void* options = choice.method->const_address(choice.options);
+  const void* defaults = choice.method->const_address(choice.method->defaults);
+  for (const frame::Option& option : choice.method->options)
+    if (option.get(options) != option.get(defaults))
+      spec += fmt::format(":{}={}", option.text.name, frame::text_of(option.get(options)));
+  return spec;
+}
+template std::string spec_of(const quality::VolumeChoice&);
+template std::string spec_of(const quality::SurfaceChoice&);
+
+std::string command_of(const SceneName& scene, const Shown& shown, const std::string& output) {
+  std::string command = fmt::format("airlight render {}", quality::shell_quote(scene.spec));
+  const auto add = [&](std::string_view name, const std::string& value) {
+    // As one word: a value may begin with a minus.
+    command += fmt::format(" --{}={}", name, quality::shell_quote(value));
+  };
+  if (scene.triangles) add("triangles", *scene.triangles);
+  if (scene.albedo) add("albedo", *scene.albedo);
+  scene::for_each_value_of_view(
+      shown.view, [&](std::string_view, const scene::FieldInfo& field, const scene::FieldValue& value) {
+        add(field.name, scene::text_of(value));
+      });
+  for (const scene::Light& light : shown.view.lights)
+    for (const auto& [field, text] : values_of(light)) add(field->name, text);
+  if (shown.exposure) add("exposure", fmt::format("{}", *shown.exposure));
+  if (quality::is_read("shadow-map", {&shown.volume, 1}, {&shown.surface, 1}))
+    add("shadow-map", fmt::format("{}", shown.shadow_map));
+  add("volume", spec_of(shown.volume));
+  add("surface", spec_of(shown.surface));
+  return fmt::format("{} -o {}", command, quality::shell_quote(output));
+}
+
+std::string shot_of(const SceneName& scene, const Shown& shown) {
+  const auto quoted = [](const std::string& text) {
+    return toml_of({.group = {},
+                    .name = {},
+                    .kind = scene::FieldKind::word,
+                    .placeholder = {},
+                    .label = {},
+                    .meaning = {}},
+                   text);
+  };
+  std::string shot = fmt::format("scene = {}\n", quoted(scene.spec));
+  if (scene.triangles) shot += fmt::format("triangles = {}\n", *scene.triangles);
+  if (shown.exposure) shot += fmt::format("exposure = {}\n", *shown.exposure);
+  if (scene.albedo)
+    shot += fmt::format("albedo = {}\n", toml_of(scene::field<scene::Scene>("albedo"), *scene.albedo));
+  std::string_view table;
+  scene::for_each_value_of_view(
+      shown.view, [&](std::string_view part, const scene::FieldInfo& field, const scene::FieldValue& value) {
+        if (part.empty()) return;  // an image's size is no part of a shot
+        if (part != table) shot += fmt::format("\n[{}]\n", part);
+        table = part;
+        shot += fmt::format("{} = {}\n", field.key(), toml_of(field, scene::text_of(value)));
+      });
+  for (const scene::Light& light : shown.view.lights) {
+    shot += shown.view.lights.size() > 1 ? "\n[[light]]\n"
+            : scene::is_sun(light)       ? "\n[sun]\n"
+                                         : "\n[light]\n";
+    for (const auto& [field, text] : values_of(light))
+      shot += fmt::format("{} = {}\n", field->key(), toml_of(*field, text));
+  }
+  return shot;
+}
+
+}  // namespace airlight::viewer

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "quality/methods.h"
+#include "scene/scene.h"
+
+namespace airlight::viewer {
+
+/// What a picture is of, and by which methods: all that a `render` command can say beside its scene.
+struct Shown {
+  scene::View view;
+  quality::VolumeChoice volume;  ///< as asked for: what is automatic is not fitted
+  quality::SurfaceChoice surface;
+  int shadow_map = 2048;          ///< side of a face [texels]
+  std::optional<float> exposure;  ///< automatic without
+};
+
+/// The scene as a command names it.
+struct SceneName {
+  std::string spec;                        ///< SCENE
+  std::optional<std::string> triangles{};  ///< --triangles
+  std::optional<std::string> albedo{};     ///< --albedo
+};
+
+/// METHOD:key=value of a choice, without the keys whose values are the default.
+template <typename MethodType>
+std::string spec_of(const quality::Choice<MethodType>& choice);
+
+/// The command that renders this very image.
+/// @param output of -o
+std::string command_of(const SceneName& scene, const Shown& shown, const std::string& output);
+
+/// A shot (scene::load_shot) of it. Methods are no part of shots.
+std::string shot_of(const SceneName& scene, const Shown& shown);
+
+}  // namespace airlight::viewer
