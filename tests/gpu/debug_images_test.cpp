@@ -30,7 +30,7 @@ Debugged debug(const char* scene, glm::ivec2 size, const VolumeOptions& settings
   const scene::View view = view_of(builtin(scene), size);
   tests::look_into_frame(geometry, view, 512, [&](const frame::FrameInputs& inputs) {
     ShadowVolume volume(inputs.context.limits(), settings);
-    volume.grid().bits().clear(~0u);
+    volume.grid().bits().clear(tests::k_rubbish);
     debugged.space = volume.find_ranges(inputs);
     volume.fill(inputs);
     debugged.bits = volume.bits();

@@ -23,7 +23,7 @@ using tests::view_of;
 std::vector<std::uint32_t> bits_of(const frame::FrameInputs& inputs, const Resolution& resolution,
                                    Scan scan) {
   ShadowVolume volume(inputs.context.limits(), {.resolution = resolution, .scan = scan});
-  volume.grid().bits().clear(~0u);
+  volume.grid().bits().clear(tests::k_rubbish);
   tests::build(volume, inputs, 2.5f);
   return volume.bits();
 }
