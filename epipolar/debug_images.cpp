@@ -21,8 +21,9 @@ int divide_up(int a, int b) {
 }
 
 /// Counts the bits on the CPU, which reads a grid of any size at once.
-frame::DebugImage grid_image(const Grid& grid, const char* name, const char* caption) {
-  const auto& [alpha, theta, phi] = grid.resolution();
+frame::DebugImage grid_image(const std::vector<std::uint32_t>& bits, const Resolution& resolution,
+                             const char* name, const char* caption) {
+  const auto& [alpha, theta, phi] = resolution;
   const int columns = divide_up(alpha, k_longest_side), rows = divide_up(theta, k_longest_side);
   frame::DebugImage image{name, caption, {divide_up(alpha, columns), divide_up(theta, rows)}, {}};
   const auto pixel_of = [&](int i, int j) {
@@ -31,7 +32,6 @@ frame::DebugImage grid_image(const Grid& grid, const char* name, const char* cap
   };
   const auto pixels = static_cast<std::size_t>(image.size.x) * static_cast<std::size_t>(image.size.y);
   std::vector<std::int64_t> set(pixels), all(pixels);
-  const std::vector<std::uint32_t> bits = grid.bits().read<std::uint32_t>();
   auto word = bits.begin();
   for (int j = 0; j < theta; ++j) {
     for (int i = 0; i < alpha; ++i) {
@@ -65,8 +65,8 @@ frame::DebugImage first_occluders(const Grid& grid) {
   return image;
 }
 
-frame::DebugImage shadowed_samples(const Grid& grid, const frame::FrameInputs& inputs) {
-  const frame::ScreenPass pass(k_shadowed_samples_frag, resolution_constants(grid.resolution()));
+frame::DebugImage shadowed_samples(const ShadowVolume& volume, const frame::FrameInputs& inputs) {
+  const frame::ScreenPass pass(k_shadowed_samples_frag, volume.reader_constants());
   const gpu::Texture fractions(gpu::Format::r32f, inputs.view.size);
   inputs.surfaces.bind_sampler(shaders::k_surface_unit);
   pass.run({fractions});
@@ -107,12 +107,12 @@ std::vector<frame::DebugImage> debug_images(ShadowVolume& volume, const frame::F
   const Grid& grid = volume.grid();
   if (grid.bits().bytes() == 0) return {first_occluders(grid)};
   frame::DebugImage after =
-      grid_image(grid, "grid_after_scan",
+      grid_image(volume.bits(), grid.resolution(), "grid_after_scan",
                  "voxels in shadow on each view ray of the grid: a row for each θ, α to the right");
-  frame::DebugImage samples = shadowed_samples(grid, inputs);
+  frame::DebugImage samples = shadowed_samples(volume, inputs);
   volume.fill_unscanned(inputs);
   frame::DebugImage before = grid_image(
-      grid, "grid_before_scan",
+      grid.bits().read<std::uint32_t>(), grid.resolution(), "grid_before_scan",
       "voxels where shadow begins, on each view ray of the grid: a row for each θ, α to the right");
   return {std::move(before), std::move(after), std::move(samples)};
 }

@@ -7,12 +7,11 @@
 namespace airlight::epipolar {
 namespace {
 
-frame::ScreenPass make_pass(const VolumeOptions& options, bool on_plane) {
-  const auto grid = resolution_constants(options.resolution);
-  const bool whole_voxels = options.populate == Populate::conservative;
-  return frame::ScreenPass(k_surface_lookup_frag,
-                           std::array{grid[0], grid[1], grid[2], gpu::Constant(3, whole_voxels ? 1 : 0),
-                                      gpu::Constant(4, on_plane ? 1 : 0)});
+frame::ScreenPass make_pass(const ShadowVolume& volume, bool whole_voxels, bool on_plane) {
+  const auto grid = volume.reader_constants();
+  return frame::ScreenPass(k_surface_lookup_frag, std::array{grid[0], grid[1], grid[2], grid[3],
+                                                             gpu::Constant(3, whole_voxels ? 1 : 0),
+                                                             gpu::Constant(4, on_plane ? 1 : 0)});
 }
 
 }  // namespace
@@ -24,7 +23,8 @@ void SurfaceLookup::query(const frame::FrameInputs& inputs, const gpu::Texture& 
   volume_.find_ranges(inputs);
   volume_.fill(inputs);
   auto& pass = passes_[inputs.shadow_map_is_plane() ? 1 : 0];
-  if (!pass) pass = make_pass(options_, inputs.shadow_map_is_plane());
+  if (!pass)
+    pass = make_pass(volume_, options_.populate == Populate::conservative, inputs.shadow_map_is_plane());
   inputs.timer.time("surface_query", [&] {
     inputs.surfaces.bind_sampler(shaders::k_surface_unit);
     pass->run({visibility});

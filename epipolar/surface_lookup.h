@@ -25,6 +25,8 @@ class SurfaceLookup : public frame::SurfaceShadow {
   void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override;
   std::map<std::string, std::int64_t> bytes() const override { return volume_.bytes(); }
 
+  const ShadowVolume& volume() const { return volume_; }
+
  private:
   ShadowVolume volume_;
   VolumeOptions options_;

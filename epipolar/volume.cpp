@@ -54,10 +54,16 @@ Resolution VolumeOptions::used_resolution() const {
 
 void VolumeOptions::validate() const {
   epipolar::validate(resolved(resolution, {}));
-  if (populate == Populate::screen_space && used_scan() == Scan::fused) {
-    throw scene::Error(scene::ExitCode::usage, "scan=fused",
+  const bool is_blocks = used_scan() == Scan::blocks;
+  if (populate == Populate::screen_space && (used_scan() == Scan::fused || is_blocks)) {
+    throw scene::Error(scene::ExitCode::usage, is_blocks ? "scan=blocks" : "scan=fused",
                        "the screen-space voxelization sets bits, and this scan reads none",
                        "use column or multi-pass");
+  }
+  if (is_blocks && resolution.alpha > k_most_block_alpha) {
+    throw scene::Error(scene::ExitCode::usage, fmt::format("alpha={}", resolution.alpha),
+                       fmt::format("scan=blocks takes {} at most", k_most_block_alpha),
+                       "ask for fewer, or use scan=fused");
   }
   if ((used_scan() == Scan::none) != (query != Query::bits)) {
     throw scene::Error(scene::ExitCode::usage, "scan",
@@ -106,9 +112,12 @@ std::vector<frame::Option> volume_options() {
           {.name = "scan",
            .meaning = "how shadow is drawn out along light rays",
            .quality = "none: the same bits",
-           .cost = "fused only writes; column reads and writes once; multi-pass moves five times the grid",
-           .sweep = {"fused", "column", "multi-pass"}},
+           .cost = "fused only writes, blocks the least, for a fetch more a look-up; column reads and writes "
+                   "once; "
+                   "multi-pass moves five times the grid",
+           .sweep = {"fused", "blocks", "column", "multi-pass"}},
           {{"fused", "one pass that only writes; default but for screen-space"},
+           {"blocks", "the same, less what of 128 light rays is lit or dark alike"},
            {"column", "one pass over set bits"},
            {"multi-pass", "the paper's"},
            {"none", "of query=tree"}},
@@ -199,7 +208,8 @@ ShadowVolume::ShadowVolume(const gpu::Limits& limits, const VolumeOptions& optio
   }
   switch (options.used_scan()) {
     case Scan::fused:
-      fused_scan_.emplace(grid_.resolution());
+    case Scan::blocks:
+      fused_scan_.emplace(limits, grid_.resolution(), options.used_scan() == Scan::blocks);
       break;
     case Scan::column:
       or_scan_.emplace(grid_.resolution());
@@ -287,6 +297,7 @@ shaders::EpipolarBlock ShadowVolume::find_ranges(const frame::FrameInputs& input
 
 void ShadowVolume::bind() const {
   grid_.bind();
+  if (fused_scan_) fused_scan_->bind();
   if (tree_) tree_->bind();
 }
 
@@ -316,10 +327,25 @@ void ShadowVolume::fill(const frame::FrameInputs& inputs) {
   inputs.resources.note_redrawn("volume");
 }
 
+std::vector<std::uint32_t> ShadowVolume::bits() const {
+  return fused_scan_ ? fused_scan_->bits(grid_) : grid_.bits().read<std::uint32_t>();
+}
+
+std::array<gpu::Constant, 4> ShadowVolume::reader_constants() const {
+  const auto counts = resolution_constants(grid_.resolution());
+  return {counts[0], counts[1], counts[2], gpu::Constant(23, options_.used_scan() == Scan::blocks)};
+}
+
+std::optional<std::int64_t> ShadowVolume::scanned_bytes() const {
+  if (!fused_scan_) return {};
+  return fused_scan_->written_bytes(grid_);
+}
+
 std::map<std::string, std::int64_t> ShadowVolume::bytes() const {
   std::map<std::string, std::int64_t> bytes = {{"light_rays", grid_.first_shadowed().bytes()}};
   if (tree_) bytes["change_tree"] = tree_->nodes().bytes();
   if (options_.query == Query::bits) bytes["grid"] = grid_.bits().bytes();
+  if (fused_scan_ && fused_scan_->blocks().bytes() > 0) bytes["blocks"] = fused_scan_->blocks().bytes();
   if (populate_screen_space_) bytes["crossings"] = populate_screen_space_->bytes();
   if (mip_scan_) bytes["mip_chain"] = mip_scan_->bytes();
   return bytes;

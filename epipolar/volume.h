@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -30,6 +31,7 @@ enum class Populate {
 /// How the grid is scanned.
 enum class Scan {
   fused,       ///< FusedScan: bits are scattered and scanned in one pass; not for Populate::screen_space
+  blocks,      ///< the same, less the texels that are wholly lit or dark
   column,      ///< bits are scattered, then OrScan
   multi_pass,  ///< bits are scattered, then MipScan
   none,        ///< of all but Query::bits
@@ -109,6 +111,16 @@ class ShadowVolume {
   const Grid& grid() const { return grid_; }
   /// What the last `find_ranges` returned.
   const shaders::EpipolarBlock& block() const { return found_.block; }
+
+  /// All bits, as `fill` made them. For tests and pictures. Not with Query::tree.
+  std::vector<std::uint32_t> bits() const;
+
+  /// What a shader is specialised by that reads bits: shaders/epipolar/grid_texels.glsl.
+  std::array<gpu::Constant, 4> reader_constants() const;
+
+  /// Of the grid, what the scan wrote [bytes]; none of scans that write all, and of Query::tree.
+  std::optional<std::int64_t> scanned_bytes() const;
+
   std::map<std::string, std::int64_t> bytes() const;  ///< memory on the GPU, by name
 
  private:

@@ -86,7 +86,8 @@ const Vsv::Programs& Vsv::load(const gpu::Context& context, const Variant& varia
     table_ = gpu::Buffer(bytes);
     table_texels_ = {context.limits(), table_, gpu::Format::rgba32f, what};
   };
-  programs.of_ray = {grid[0], grid[1], grid[2], phase, whole_voxels, layer, looks_away, query};
+  const gpu::Constant blocks = volume_.reader_constants()[3];
+  programs.of_ray = {grid[0], grid[1], grid[2], blocks, phase, whole_voxels, layer, looks_away, query};
   const auto pass = [&](std::span<const std::uint32_t> fragment, std::initializer_list<gpu::Constant> more) {
     std::vector<gpu::Constant> constants = programs.of_ray;
     constants.insert(constants.end(), more);
@@ -225,7 +226,9 @@ std::map<std::string, double> Vsv::counters(const frame::FrameInputs& inputs) {
     changes += static_cast<double>(ray.x);
     reads += static_cast<double>(ray.y);
   }
-  return {{"changes", changes}, {"reads", reads}};
+  std::map<std::string, double> counters = {{"changes", changes}, {"reads", reads}};
+  if (const auto scanned = volume_.scanned_bytes()) counters["scanned_bytes"] = static_cast<double>(*scanned);
+  return counters;
 }
 
 std::vector<frame::DebugImage> Vsv::debug_images(const frame::FrameInputs& inputs) {

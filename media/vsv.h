@@ -65,7 +65,8 @@ class Vsv : public frame::Airlight {
   void integrate(const frame::FrameInputs& inputs, const gpu::Texture& radiance) override;
   frame::ViewRays rays() const override { return options_.rays; }
   std::map<std::string, std::int64_t> bytes() const override;
-  /// "changes" of visibility, and "reads" of 128 bits, by which they are found.
+  /// "changes" of visibility, and "reads" of 128 bits, by which they are found; "scanned_bytes", what a scan
+  /// of first shadowed cells writes.
   std::map<std::string, double> counters(const frame::FrameInputs& inputs) override;
   /// Those of epipolar::debug_images, and where pixels are asked
   /// "changes": how often visibility changes along each view ray, of 64.

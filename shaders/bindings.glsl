@@ -28,6 +28,7 @@ CONST uint k_materials_unit = 11u;      // … and which a triangle has
 CONST uint k_grid_unit = 12u;           // epipolar/grid.glsl
 CONST uint k_table_unit = 13u;          // media/vsv_table.glsl
 CONST uint k_first_shadowed_unit = 14u; // epipolar/grid.h
+CONST uint k_blocks_unit = 15u;         // epipolar/fused_scan.h
 // Of surface shadows, which are asked for when no grid and no table is bound: surface_shadows/occluders.glsl, …
 CONST uint k_insertion_order_unit = 7u;  // … a tree's triangles, …
 CONST uint k_occluders_unit = 12u;
@@ -53,6 +54,7 @@ CONST uint k_planes_storage = 3u;
 CONST uint k_queue_storage = 4u;      // epipolar/triangle_queue.glsl
 CONST uint k_scratch_storage = 5u;
 CONST uint k_table_storage = 6u;
+CONST uint k_blocks_storage = 7u;
 CONST uint k_occluders_storage = 1u;  // as above
 CONST uint k_tree_planes_storage = 2u;
 CONST uint k_tree_links_storage = 3u;

@@ -9,12 +9,14 @@
 //
 // The 128 comparisons of a texel are done at once, bit-sliced: bit k of slice b is bit b of the number of light ray k. Going
 // over i from its high digits to its low ones, `below` collects the rays whose number is smaller already, `equal` those
-// that agree so far. The grid must be clear: texels before the first shadow are not written.
+// that agree so far. Of fused scans the grid must be clear: texels before the first shadow are not written.
 layout(local_size_x = 4, local_size_y = 4) in;
 layout(binding = k_first_shadowed_unit) uniform usamplerBuffer first_shadowed;  // four light rays a texel
 layout(std430, binding = k_grid_storage) writeonly buffer Grid { uvec4 grid[]; };
+layout(std430, binding = k_blocks_storage) writeonly buffer Blocks { uint blocks[]; };
 
 layout(constant_id = 3) const uint k_digits = 10;  // of the numbers 0 … N_α
+layout(constant_id = 4) const uint k_blocks = 0;   // whether to leave out texels that are like their neighbours (fused_scan.h)
 
 // Written out instead of looped over, so that every index of `slice` is constant and it stays in registers: llvmpipe's loops
 // over it took half as long again.
@@ -35,6 +37,7 @@ layout(constant_id = 3) const uint k_digits = 10;  // of the numbers 0 … N_α
   {                                                                               \
     uvec4 first = uvec4(a.component, b.component, c.component, d.component);      \
     start = min(start, min(min(first.x, first.y), min(first.z, first.w)));        \
+    end = max(end, max(max(first.x, first.y), max(first.z, first.w)));            \
     FOR_DIGITS(ADD_RAYS)                                                          \
     ++bit;                                                                        \
   }
@@ -46,7 +49,8 @@ void main() {
 
   uvec4 slice[21];
   for (uint i = 0u; i < 21u; ++i) slice[i] = uvec4(0u);
-  uint start = k_alpha_count;
+  uint start = k_alpha_count;  // before it all of the rays are lit, …
+  uint end = 0u;               // … and from here on none is
   int rays = int(((window_first_plane + plane) * k_texels_per_ray + texel) * 32u);
   uint bit = 0u;
   while (bit < 32u) {
@@ -61,10 +65,17 @@ void main() {
     ADD_RAYS_OF(w)
   }
 
-  // The texels of all α from the first shadow on, eight at a time.
-  start &= ~7u;
-  uint at = (plane * k_alpha_count + start) * k_texels_per_ray + texel;
-  for (uint i = start; i < k_alpha_count; i += 8u) {
+  // The texels that are stored, eight α at a time: all from the first shadow on, or from the last that is wholly lit to the first
+  // that is wholly dark.
+  uint first_row = start & ~7u;
+  uint last_row = k_alpha_count - 1u;
+  if (k_blocks != 0u) {
+    first_row = max(start, 1u) - 1u;
+    last_row = min(end, last_row);
+    blocks[(window_first_plane + plane) * k_texels_per_ray + texel] = first_row | last_row << 16;
+  }
+  uint at = (plane * k_alpha_count + (first_row & ~7u)) * k_texels_per_ray + texel;
+  for (uint i = first_row & ~7u; i <= last_row; i += 8u) {
     uvec4 below = uvec4(0u);
     uvec4 equal = uvec4(0xffffffffu);
     FOR_HIGH_DIGITS(COMPARE)
@@ -76,7 +87,7 @@ void main() {
                                below | zero2, below | zero2 | (equal & zero1 & zero0), below | zero2 | (equal & zero1),
                                below | zero2 | (equal & (zero1 | zero0)), below | equal);
     for (uint low = 0u; low < 8u; ++low) {
-      if (i + low < k_alpha_count) grid[at] = texels[low];
+      if (i + low - first_row <= last_row - first_row) grid[at] = texels[low];
       at += k_texels_per_ray;
     }
   }

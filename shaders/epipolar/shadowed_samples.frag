@@ -1,13 +1,12 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "epipolar/uniforms.glsl"
-#include "epipolar/resolution.glsl"
+#include "epipolar/grid_texels.glsl"
 #include "epipolar/phi_range.glsl"
 
 // How many of the samples along each pixel's view ray are in shadow, of all N_φ (Fig. 7, bottom): set bits of its row whose
 // centre lies before the end of the ray.
 layout(binding = k_surface_unit) uniform sampler2D surface_image;
-layout(binding = k_grid_unit) uniform usamplerBuffer grid_texels;
 layout(location = 0) out float fraction;
 
 void main() {
@@ -19,10 +18,9 @@ void main() {
   uint i = alpha_cell(space, alpha_of(angle), k_alpha_count);
   uint j = theta_cell(space, theta_of(space, direction), k_theta_count);
   int end = int(clamp(ceil(cell_of_phi(phi_cells(j), phi_end) - 0.5), 0.0, float(k_phi_count)));
-  int row = int((j * k_alpha_count + i) * k_texels_per_ray);
   int count = 0;
   for (int first = 0; first < end; first += 128) {
-    uvec4 words = texelFetch(grid_texels, row + (first >> 7));
+    uvec4 words = grid_bits(j, i, uint(first) >> 7);
     for (int word = 0; word < 4; ++word) {
       int wanted = clamp(end - first - 32 * word, 0, 32);
       uint mask = wanted == 32 ? 0xffffffffu : (1u << uint(wanted)) - 1u;

@@ -2,13 +2,12 @@
 #extension GL_GOOGLE_include_directive : require
 #include "epipolar/uniforms.glsl"
 #include "frame/shadow_cube.glsl"
-#include "epipolar/resolution.glsl"
+#include "epipolar/grid_texels.glsl"
 #include "epipolar/phi_range.glsl"
 
 // Is a pixel's surface lit? One bit of the shadow volume tells: that of the last voxel in front of the surface, on the light ray
 // that is nearest to the surface's point.
 layout(binding = k_surface_unit) uniform sampler2D surface_image;
-layout(binding = k_grid_unit) uniform usamplerBuffer grid_texels;
 layout(location = 0) out float visibility;
 
 // Whether a voxel is dark as soon as a triangle touches it, or only where its centre is in shadow.
@@ -84,11 +83,6 @@ void main() {
   float i = min(before, float(alpha_cell(space, alpha_of(angle), k_alpha_count)));
 
   bool is_lit = light_above(light, surface.xyz, offset) > 0.0;  // a surface that faces away is dark
-  if (i >= 0.0) {
-    uint bit = uint(k);
-    uint texel = (j * k_alpha_count + uint(i)) * k_texels_per_ray + (bit >> 7);
-    uvec4 words = texelFetch(grid_texels, int(texel));
-    is_lit = is_lit && (words[bit >> 5 & 3u] >> (bit & 31u) & 1u) == 0u;
-  }
+  if (i >= 0.0) is_lit = is_lit && !is_bit_set(j, uint(i), uint(k));
   visibility = is_lit ? 1.0 : 0.0;
 }

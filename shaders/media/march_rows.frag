@@ -11,7 +11,7 @@ bool is_lit_along(MediumRay ray, float t, float phi) {
   float cell = floor(cell_of_phi(row.cells, phi));
   bool is_in_row = cell >= 0.0 && cell < float(k_phi_count);
   uint k = uint(clamp(cell, 0.0, float(k_phi_count) - 1.0));
-  bool is_shadowed = int(k) > row.last_valid ? row.beyond_valid != 0u : is_dark(row.texel, row.row, k);
+  bool is_shadowed = int(k) > row.last_valid ? row.beyond_valid != 0u : is_dark(row.plane, row.row, k);
   return !is_in_row || !is_shadowed;
 }
 

@@ -1,6 +1,6 @@
 // What the VSV integrators share: a view ray in the grid. GLSL only.
 #include "media/medium_ray.glsl"
-#include "epipolar/resolution.glsl"
+#include "epipolar/grid_texels.glsl"
 #include "epipolar/phi_range.glsl"
 #include "epipolar/change_tree.glsl"
 #include "media/row_end.glsl"
@@ -16,7 +16,6 @@ const uint k_tree = 1u;
 const uint k_light_rays = 2u;
 
 layout(binding = k_surface_unit) uniform sampler2D surface_image;
-layout(binding = k_grid_unit) uniform usamplerBuffer grid_texels;  // of what is asked
 layout(location = 0) out vec4 airlight;
 
 // How far before the plane, in cells of φ, a bit has to lie to be trusted.
@@ -27,21 +26,13 @@ const float k_touch_slack = 0.25;
 // Where a wall is seen and lit at a grazing angle its voxels reach far before it.
 const float k_length_slack = 1e-4;
 
-// Whether a cell of a row of α is in shadow, by the first texel of the row's bits, or of its half-plane's light rays. Not of a tree.
-bool is_dark(int texel, uint row, uint cell) {
-  uint shift = k_query == k_light_rays ? 2u : 7u;  // by which a cell gives its texel
-  uvec4 words = texelFetch(grid_texels, texel + int(cell >> shift));
-  uint word = cell >> (shift - 2u) & 3u;
-  uint value = word == 0u ? words.x : word == 1u ? words.y : word == 2u ? words.z : words.w;
-  if (k_query == k_light_rays) return value <= row;
-  return (value >> (cell & 31u) & 1u) != 0u;
-}
-
-// The first texel of what a row is asked of.
-int row_texel(uint plane, uint row) {
-  if (k_query == k_tree) return int(plane * nodes_per_plane(k_phi_count));
-  if (k_query == k_light_rays) return int(plane * (k_phi_count / 4u));
-  return int((plane * k_alpha_count + row) * k_texels_per_ray);
+// Whether a cell of a row of α is in shadow. Not of a tree.
+bool is_dark(uint plane, uint row, uint cell) {
+  if (k_query == k_light_rays) {
+    uvec4 first = texelFetch(grid_texels, int(plane * (k_phi_count / 4u) + (cell >> 2)));
+    return component_of(first, cell & 3u) <= row;
+  }
+  return is_bit_set(plane, row, cell);
 }
 
 struct VsvRay {
@@ -51,19 +42,18 @@ struct VsvRay {
   uint last_cell;    // the cell that holds its end
   int last_valid;    // the last cell whose bit says something about this ray; −1 for none
   uint beyond_valid; // all bits set or none: what cells after that one hold
-  uint row;          // its row of α
-  int texel;         // its first texel: of bits, of light rays, or the root of a tree
+  uint plane;        // its half-plane …
+  uint row;          // … and row of α
 };
 
 // Before the first cell that may say something: whether the row of α at π/2 is dark in the first one.
 bool is_dark_beside_eye(uint plane) {
   uint row = alpha_cell(space, 0.5 * k_pi, k_alpha_count);
-  int texel = row_texel(plane, row);
   if (k_query == k_tree) {
-    int leaf = texel + int(level_start(tree_levels(k_phi_count) - 1u));
-    return (texelFetch(grid_texels, leaf).x & 0xffffu) <= row;  // what lies before its first light ray is lit
+    uint leaf = plane * nodes_per_plane(k_phi_count) + level_start(tree_levels(k_phi_count) - 1u);
+    return (texelFetch(grid_texels, int(leaf)).x & 0xffffu) <= row;  // what lies before its first light ray is lit
   }
-  return is_dark(texel, row, 0u);
+  return is_dark(plane, row, 0u);
 }
 
 VsvRay vsv_ray(ivec2 texel) {
@@ -77,8 +67,8 @@ VsvRay vsv_ray(ivec2 texel) {
   ray.cells = phi_cells(j);
   ray.end = cell_of_phi(ray.cells, ray.seen.phi_end);
   ray.last_cell = uint(clamp(floor(ray.end), 0.0, float(k_phi_count) - 1.0));
+  ray.plane = j;
   ray.row = i;
-  ray.texel = row_texel(j, i);
 
   // The bits are those of the row's own ray, at the centre of its cell. Where that ray meets the surface's plane before this one
   // ends, its later bits tell of the other side of the surface: beyond a wall between eye and light they are lit, and as
@@ -114,7 +104,7 @@ VsvRay vsv_ray(ivec2 texel) {
         if (ray.seen.angle.cosine < 0.0 && !is_beyond_dark) is_beyond_dark = is_dark_beside_eye(j);
       }
     } else if (k_query != k_tree) {
-      is_beyond_dark = is_dark(ray.texel, ray.row, uint(ray.last_valid));
+      is_beyond_dark = is_dark(j, i, uint(ray.last_valid));
     }
     ray.beyond_valid = is_beyond_dark ? 0xffffffffu : 0u;
   }
@@ -140,7 +130,7 @@ uvec4 before_end(VsvRay ray, uint texel) { return first_cells(int(ray.last_cell)
 // The 128 bits of a texel as this ray sees them.
 uvec4 seen_bits(VsvRay ray, uint texel) {
   uvec4 valid = first_cells(ray.last_valid + 1, texel);
-  return (texelFetch(grid_texels, ray.texel + int(texel)) & valid) | (ray.beyond_valid & ~valid);
+  return (grid_bits(ray.plane, ray.row, texel) & valid) | (ray.beyond_valid & ~valid);
 }
 
 // Where visibility changes: the bits that differ from the cell before. `last`: that cell's, of the first bit, and then of the next texel's.
@@ -174,7 +164,9 @@ struct Changes {
 
 // Which of a node's children a ray straddles, a bit each.
 uint straddled(VsvRay ray, uint level, uint n) {
-  uvec4 node = texelFetch(grid_texels, ray.texel + int(level_start(tree_levels(k_phi_count) - 1u - level) + n));
+  uint root = ray.plane * nodes_per_plane(k_phi_count);
+  // The tree takes the place of the grid.
+  uvec4 node = texelFetch(grid_texels, int(root + level_start(tree_levels(k_phi_count) - 1u - level) + n));
   uvec4 changes = uvec4(lessThanEqual(node & 0xffffu, uvec4(ray.row))) & uvec4(greaterThan(node >> 16, uvec4(ray.row)));
   return changes.x | changes.y << 1 | changes.z << 2 | changes.w << 3;
 }

@@ -230,9 +230,10 @@ void print_bandwidth(Bench& bench, gpu::Context& context) {
   line("copied by the CPU, all threads", copy);
   line("written by the CPU, all threads", write);
   for (const auto& [label, populate] : k_ways) {
-    for (const auto& [scan_label, scan] : {std::pair{"fused", Scan::fused}, std::pair{"column", Scan::column},
-                                           std::pair{"multi-pass", Scan::multi_pass}}) {
-      if (populate == Populate::screen_space && scan == Scan::fused) continue;
+    for (const auto& [scan_label, scan] :
+         {std::pair{"fused", Scan::fused}, std::pair{"blocks", Scan::blocks},
+          std::pair{"column", Scan::column}, std::pair{"multi-pass", Scan::multi_pass}}) {
+      if (populate == Populate::screen_space && (scan == Scan::fused || scan == Scan::blocks)) continue;
       const Stages stages = bench.stages({.populate = populate, .scan = scan}, 1024);
       line(fmt::format("{}, {}", label, scan_label), stages.at("populate") + stages.at("scan"));
       line("  of it the scan", stages.at("scan"));

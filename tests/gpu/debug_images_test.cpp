@@ -30,9 +30,10 @@ Debugged debug(const char* scene, glm::ivec2 size, const VolumeOptions& settings
   const scene::View view = view_of(builtin(scene), size);
   tests::look_into_frame(geometry, view, 512, [&](const frame::FrameInputs& inputs) {
     ShadowVolume volume(inputs.context.limits(), settings);
+    volume.grid().bits().clear(tests::k_rubbish);
     debugged.space = volume.find_ranges(inputs);
     volume.fill(inputs);
-    debugged.bits = volume.grid().bits().read<std::uint32_t>();
+    debugged.bits = volume.bits();
     debugged.surfaces = inputs.surfaces.read<glm::vec4>();
     debugged.cells = tests::phi_cells(volume);
     const std::vector<frame::DebugImage> images = debug_images(volume, inputs);
@@ -60,7 +61,7 @@ TEST(DebugImages, OfTheGridCountItsBits) {
 }
 
 TEST(DebugImages, OfAnUnscannedGridHoldWhatTheScanDrawsOut) {
-  for (Scan scan : {Scan::fused, Scan::column, Scan::multi_pass}) {
+  for (Scan scan : {Scan::fused, Scan::blocks, Scan::column, Scan::multi_pass}) {
     VolumeOptions settings = k_small;
     settings.scan = scan;
     const Debugged debugged = debug("window", {48, 32}, settings);
@@ -79,8 +80,11 @@ TEST(DebugImages, OfAnUnscannedGridHoldWhatTheScanDrawsOut) {
 
 TEST(DebugImages, CountTheShadowedSamplesOfEachPixel) {
   const glm::ivec2 size(48, 32);
-  for (const char* scene : {"window", "sphere"}) {
-    const Debugged debugged = debug(scene, size, k_small);
+  for (const auto& [scene, scan] : {std::pair{"window", Scan::fused}, std::pair{"window", Scan::blocks},
+                                    std::pair{"sphere", Scan::fused}}) {
+    VolumeOptions settings = k_small;
+    settings.scan = scan;
+    const Debugged debugged = debug(scene, size, settings);
     ASSERT_EQ(debugged.samples.size, size);
     const scene::View view = view_of(builtin(scene), size);
     const scene::CameraFrame camera = scene::camera_frame(view.camera, size);

@@ -143,8 +143,14 @@ TEST_F(RestingScreenSpace, AVolumeNeedsNoMapToRest) {
   expect_redrawn(k_volume, "the eye moves");
 }
 
-TEST_F(Resting, TwoVolumesOfAFrameAreKeptEachByItsMethod) {
-  epipolar::SurfaceLookup surface(gpu_context(), {.resolution = {32, 64, 128}});
+class RestingBlocks : public Resting {
+ protected:
+  RestingBlocks() : Resting("cornell", with({.scan = epipolar::Scan::blocks})) {}
+};
+
+TEST_F(RestingBlocks, TwoVolumesOfAFrameAreKeptEachByItsMethod) {
+  epipolar::SurfaceLookup surface(gpu_context(),
+                                  {.resolution = {32, 64, 128}, .scan = epipolar::Scan::blocks});
   gpu::StageTimer off(nullptr);
   frame_.render(view_, surface, vsv_, off, frame::Resting::kept);
   const FrameImages first = frame_.read();

@@ -6,8 +6,8 @@
 
 #include "quality/measure.h"
 #include "scene/error.h"
+#include "support/open_room.h"
 #include "support/render.h"
-#include "support/scenes.h"
 
 /// Airlight from a tree of changes, and from the bits of a grid with as many rows of α as its numbers tell
 /// apart: the same.
@@ -24,44 +24,17 @@ struct Case {
   Populate populate = Populate::shadow_map;
   VsvIntegral integral = VsvIntegral::automatic;
   int phi = 128;
-  bool has_plate = false;  ///< just before the eye, and one behind it
+  bool has_plates = false;
 };
 void PrintTo(const Case& of, std::ostream* stream) {
   *stream << of.name;
 }
 
-/// Blocks before the walls of an open room.
-scene::Geometry blocks() {
-  scene::Geometry geometry;
-  tests::add_quad(geometry, {-3, -1, -3}, {6, 0, 0}, {0, 0, 6});
-  tests::add_quad(geometry, {-3, -1, -3}, {0, 4, 0}, {6, 0, 0});
-  for (int i = 0; i < 9; ++i) {
-    const glm::vec3 at(static_cast<float>(i % 3) - 1.2f, 0.4f * static_cast<float>(i / 3) - 0.8f,
-                       -0.7f * static_cast<float>(i % 4));
-    tests::add_box(geometry, at, at + glm::vec3(0.3f, 0.17f, 0.25f));
-  }
-  return geometry;
-}
-
-scene::View lit_by(const scene::Light& light) {
-  scene::View view;
-  view.camera.eye = {0.1, 0.2, 3};
-  view.camera.target = {0, 0, 0};
-  view.camera.vertical_fov_degrees = 70;
-  view.medium.sigma_s = {0.1f, 0.2f, 0.3f};
-  view.lights = {light};
-  view.size = {65, 47};
-  return view;
-}
-
-scene::View lamp_at(glm::dvec3 position) {
-  return lit_by(scene::point_light("", position, glm::vec3(10)));
-}
-
 std::vector<Case> cases() {
-  const scene::View in_view = lamp_at({0.3, 0.5, -0.2}), aside = lamp_at({4, 3, 1});
-  const scene::View behind = lamp_at({0.4, 0.9, 4}),
-                    sun = lit_by(scene::sun("", {0.5, 1, 0.3}, glm::vec3(5)));
+  const scene::View in_view = tests::open_room_with_lamp_at({0.3, 0.5, -0.2}),
+                    aside = tests::open_room_with_lamp_at({4, 3, 1});
+  const scene::View behind = tests::open_room_with_lamp_at({0.4, 0.9, 4}),
+                    sun = tests::open_room_lit_by(scene::sun("", {0.5, 1, 0.3}, glm::vec3(5)));
   return {{"lamp_in_view", in_view},
           {"lamp_aside", aside},
           {"lamp_behind", behind},
@@ -82,11 +55,7 @@ class ChangeTreeOf : public ::testing::TestWithParam<Case> {};
 
 TEST_P(ChangeTreeOf, SeesWhatTheBitsSay) {
   const Case& of = GetParam();
-  scene::Geometry geometry = blocks();
-  if (of.has_plate) {
-    tests::add_quad(geometry, {0.1f, 0.1f, 2.999f}, {1, 0, 0.1f}, {0, 0.2f, 0});
-    tests::add_quad(geometry, {0, 0.2f, 3.2f}, {0.3f, 0, 0}, {0, 0.3f, 0});
-  }
+  const scene::Geometry geometry = tests::open_room(of.has_plates);
   const auto render = [&](Query query) {
     return tests::render_vsv(geometry, of.view,
                              {.resolution = {epipolar::k_tree_alpha, 24, of.phi},
@@ -113,8 +82,8 @@ std::map<std::string, double> counters(const scene::Geometry& geometry, const sc
 }
 
 TEST(Counters, SayWhatAViewRayTakes) {
-  const scene::View view = lamp_at({0.3, 0.5, -0.2});
-  const scene::Geometry geometry = blocks();
+  const scene::View view = tests::open_room_with_lamp_at({0.3, 0.5, -0.2});
+  const scene::Geometry geometry = tests::open_room();
   auto bits = counters(geometry, view, "vsv:alpha=65535:theta=24:phi=256");
   auto tree = counters(geometry, view, "vsv:query=tree:theta=24:phi=256");
   EXPECT_GT(bits["changes"], 0.5);
@@ -128,6 +97,9 @@ TEST(Counters, SayWhatAViewRayTakes) {
   // Nothing casts a shadow.
   EXPECT_EQ(counters({}, view, "vsv:theta=24:phi=256")["changes"], 0.0);
   EXPECT_EQ(counters({}, view, "vsv:query=tree:theta=24:phi=256")["reads"], 1.0);
+  // A row for each texel of a half-plane, of 16 bytes.
+  EXPECT_EQ(counters({}, view, "vsv:scan=blocks:theta=24:phi=256")["scanned_bytes"],
+            16.0 * 24 * 2 / (65 * 47));
   EXPECT_EQ(counters(geometry, view, "march:steps=24")["look_ups"], 24.0);
   // 9 × 6 tiles of 8 × 8 pixels.
   EXPECT_EQ(counters(geometry, view, "froxel:slices=32:samples=2")["look_ups"], 9.0 * 6 * 32 * 2 / (65 * 47));

@@ -13,6 +13,9 @@
 /// The grid on the CPU, in double precision and apart from the shaders.
 namespace airlight::tests {
 
+/// A word that no scan writes, for a grid to hold before one.
+inline constexpr std::uint32_t k_rubbish = 0xdeadbeef;
+
 /// How many bits are set.
 inline std::size_t count_set(std::span<const std::uint32_t> words) {
   std::size_t set = 0;

@@ -94,6 +94,10 @@ TEST(MethodSpec, MistakesAreNamedWithWhatIsValid) {
   EXPECT_THAT(complaint("vsv:theta=many"), HasSubstr("theta"));
   EXPECT_THAT(complaint("reference-sampled:samples=auto"), HasSubstr("'auto'"));
   EXPECT_THAT(complaint("vsv:populate=screen-space:scan=fused"), HasSubstr("column"));
+  EXPECT_THAT(complaint("vsv:populate=screen-space:scan=blocks"),
+              testing::AllOf(HasSubstr("scan=blocks"), HasSubstr("column")));
+  EXPECT_THAT(complaint("vsv:scan=blocks:alpha=65537"),
+              testing::AllOf(HasSubstr("alpha=65537"), HasSubstr("65536")));
   EXPECT_THAT(complaint("vsv:integral=sum"), testing::AllOf(HasSubstr("unknown"), HasSubstr("riemann")));
   EXPECT_THAT(complaint("none:alpha=4"), HasSubstr("it has none"));
   EXPECT_THAT(complaint("march:steps=7"), testing::AllOf(HasSubstr("march:steps=7, steps"), HasSubstr("8")));
