@@ -134,11 +134,12 @@ ViewChoices read_choices(const Options& options) {
 
 std::span<const OptionLine> common_options() {
   static const std::vector<OptionLine> options = [] {
-    std::vector<OptionLine> lines = {{"triangles", "N", triangles_help()},
-                                     {"looks", "flat|textured",
-                                      "what a model's surfaces look like: one colour a material, or the "
-                                      "textures of base colours; shadows and "
-                                      "airlight are the same (default: textured in render, else flat)"}};
+    std::vector<OptionLine> lines = {
+        {"triangles", "N", triangles_help()},
+        {"looks", "flat|textured",
+         "what a model's surfaces look like: one colour a material and flat "
+         "triangles, or the textures of base colours and shading normals; shadows "
+         "and airlight are the same (default: textured in render, else flat)"}};
     for (const scene::FieldInfo* field : scene::every_field())
       lines.push_back({field->name, field->placeholder, field->help()});
     lines.push_back(

@@ -11,11 +11,13 @@ FUNCTION vec2 fold_over(IN(vec2) p) {
 FUNCTION uint octahedron_of(IN(vec3) unit) {
   vec2 p = vec2(unit.x, unit.y) / (abs(unit.x) + abs(unit.y) + abs(unit.z));
   if (unit.z < 0.0f) p = fold_over(p);
-  return packSnorm2x16(p);
+  // As packSnorm2x16, which zink 22.3.6 does not know.
+  ivec2 bits = ivec2(floor(clamp(p, vec2(-1.0f), vec2(1.0f)) * 32767.0f + 0.5f));
+  return (uint(bits.x) & 0xffffu) | (uint(bits.y) << 16u);
 }
 
 FUNCTION vec3 of_octahedron(uint packed) {
-  vec2 p = unpackSnorm2x16(packed);
+  vec2 p = vec2(float(int(packed << 16u) >> 16), float(int(packed) >> 16)) / 32767.0f;
   float z = 1.0f - abs(p.x) - abs(p.y);
   if (z < 0.0f) p = fold_over(p);
   return normalize(vec3(p, z));
