@@ -232,7 +232,7 @@ TEST(Looks, InterpolatesNormals) {
       // bits.
       const glm::vec3 expected = glm::normalize(
           glm::vec3((static_cast<float>(x) - 7.5f) / 8, (7.5f - static_cast<float>(y)) / 8, 2));
-      for (int i = 0; i < 3; ++i) EXPECT_NEAR(image.at(x, y)[i], expected[i], k_half + 4e-5f);
+      for (int i = 0; i < 3; ++i) EXPECT_NEAR(image.at(x, y)[i], expected[i], k_half + 7e-5f);
     }
 }
 
