@@ -20,6 +20,12 @@ constexpr double k_driver_addresses = 700e6, k_driver_bytes = 120e6;
 /// Of the CPU's and the driver's copies of a triangle, its corners and its material.
 constexpr double k_bytes_per_triangle = 200.0;
 
+/// Of a texture's texel, kept here, and with smaller levels a third more, handed over and kept by the driver.
+constexpr std::size_t k_bytes_per_texel = 4 + 2 * 6;
+
+/// Of a triangle's places in a texture, here and by the driver, or of its normals.
+constexpr std::size_t k_bytes_of_corners = 48;
+
 /// A line of a file of /proc, such as "VmSize:   1234 kB" [bytes]; none where there is none.
 std::optional<double> proc_bytes(const char* file, const std::string& key) {
   std::ifstream stream(file);
@@ -41,13 +47,19 @@ std::optional<double> addresses_left() {
 
 }  // namespace
 
+std::size_t bytes_of_looks(const scene::Geometry& geometry) {
+  return k_bytes_per_texel * scene::texel_count(geometry) +
+         k_bytes_of_corners * (geometry.texture_places.size() + geometry.normals.size());
+}
+
 void require_memory(const Holding& holding) {
   constexpr int k_largest_face = 16384;  // more, the driver may refuse by itself
   const double pixels = static_cast<double>(holding.size.x) * static_cast<double>(holding.size.y);
   const double image = pixels * static_cast<double>(holding.bytes_per_pixel);
   const double side = holding.shadow_map > k_largest_face ? 0.0 : holding.shadow_map;
   const double shadow_map = 6.0 * sizeof(float) * side * side;
-  const double scene = k_bytes_per_triangle * static_cast<double>(holding.triangles);
+  const double scene =
+      k_bytes_per_triangle * static_cast<double>(holding.triangles) + static_cast<double>(holding.looks);
 
   const auto require = [&](double driver, std::optional<double> left, const char* of_what,
                            const char* remedy) {

@@ -4,6 +4,8 @@
 
 #include <glm/glm.hpp>
 
+#include "scene/scene.h"
+
 namespace airlight::app {
 
 /// What there is to hold, roughly.
@@ -12,7 +14,11 @@ struct Holding {
   std::size_t bytes_per_pixel = 0;  ///< on a driver that runs on the CPU, which has its images in this memory
   int shadow_map = 0;               ///< side of a face of the shadow map [texels]; 0 for none
   std::size_t triangles = 0;
+  std::size_t looks = 0;  ///< bytes of the model's textures and normals
 };
+
+/// What a model's textures and normals take, here and by the driver.
+std::size_t bytes_of_looks(const scene::Geometry& geometry);
 
 /// A frame's images, and one copy of each in turn as it is read; 85 measured at 8192².
 constexpr std::size_t k_bytes_of_render = 90;

@@ -15,6 +15,7 @@
 #include "scene/builtin.h"
 #include "scene/choices.h"
 #include "scene/error.h"
+#include "scene/fitted_ambient.h"
 #include "scene/import.h"
 #include "scene/numbers.h"
 #include "scene/shot.h"
@@ -55,9 +56,19 @@ bool is_shot(const std::filesystem::path& file) {
   return extension == ".toml";
 }
 
+/// What the model looks like. Where methods are compared their times are, too: unless asked otherwise,
+/// nothing is drawn there that none of them computes.
+scene::Looks looks(const Options& options) {
+  const std::string text = options.get("looks").value_or(options.command == "render" ? "textured" : "flat");
+  if (text == "flat") return scene::Looks::flat;
+  if (text == "textured") return scene::Looks::textured;
+  throw usage("--looks", fmt::format("'{}' is unknown", text), "use flat or textured");
+}
+
 scene::Scene load_scene(const Options& options) {
   const std::string& name = options.scene;
   const std::filesystem::path file(name);
+  const scene::Looks shown = looks(options);
   const scene::BuiltinScene* builtin = scene::find_builtin(name);
   std::optional<std::size_t> triangles;
   if (const auto text = options.get("triangles")) {
@@ -67,12 +78,15 @@ scene::Scene load_scene(const Options& options) {
     if (!problem.empty()) throw usage("--triangles", problem);
   }
   if (builtin) return builtin->make(triangles);
-  if (is_shot(file)) return scene::load_shot(file, triangles, quality::read_light_texture);
+  if (is_shot(file)) return scene::load_shot(file, triangles, quality::read_light_texture, shown);
   if (std::error_code error; !file.has_extension() && !std::filesystem::exists(file, error)) {
     throw Error(ExitCode::bad_file, name, "there is no such scene", scene_help());
   }
-  return scene::import_scene(file);
+  return scene::import_scene(file, shown);
 }
+
+/// Of --ambient.
+constexpr std::string_view k_fitted = "auto";
 
 class OptionChoices final : public scene::Choices {
  public:
@@ -97,7 +111,7 @@ ViewChoices read_choices(const Options& options) {
   std::size_t named = 0;
   for (const auto& [name, text] : options.given) {
     const scene::FieldInfo* field = scene::find_field(name);
-    if (!field) continue;
+    if (!field || (name == "ambient" && text == k_fitted)) continue;
     OptionChoices* of_field = &choices.of_view;
     if (scene::is_of_light(*field)) {
       const bool begins = scene::names_light(*field) && (named++ > 0 || lights.empty());
@@ -120,7 +134,12 @@ ViewChoices read_choices(const Options& options) {
 
 std::span<const OptionLine> common_options() {
   static const std::vector<OptionLine> options = [] {
-    std::vector<OptionLine> lines = {{"triangles", "N", triangles_help()}};
+    std::vector<OptionLine> lines = {
+        {"triangles", "N", triangles_help()},
+        {"looks", "flat|textured",
+         "what a model's surfaces look like: one colour a material and flat "
+         "triangles, or the textures of base colours and shading normals; shadows "
+         "and airlight are the same (default: textured in render, else flat)"}};
     for (const scene::FieldInfo* field : scene::every_field())
       lines.push_back({field->name, field->placeholder, field->help()});
     lines.push_back(
@@ -155,6 +174,10 @@ Subject make_subject(const Options& options) {
                 "give one with --light-position x,y,z --intensity r,g,b or --sun x,y,z --irradiance r,g,b");
   subject.view = {subject.scene.cameras[0], subject.scene.lights, subject.scene.medium};
   choose(choices.of_view, subject.view);
+  subject.view.surroundings = subject.scene.surroundings;
+  if (options.get("ambient") == std::string(k_fitted))
+    subject.view.surroundings.ambient =
+        scene::fitted_ambient(subject.scene.geometry, subject.view.lights, subject.view.medium);
   subject.exposure = subject.scene.exposure;
   if (const auto path = options.get("path")) {
     subject.path = scene::load_path(*path, subject.view);

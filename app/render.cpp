@@ -53,7 +53,7 @@ struct Images {
     is_first = false;
     if (!exposure) exposure = quality::automatic_exposure(images.radiance);
     auto preview_is_written = std::async(std::launch::async, [&] {
-      quality::write_png(beside(file), images.radiance, images.size, *exposure);
+      quality::write_png(beside(file), images.radiance, images.size, *exposure, subject.scene.tone_map);
     });
     quality::write_frame(file, images, metadata_of(view));
     preview_is_written.get();
@@ -70,7 +70,8 @@ struct Images {
     if (quality::is_read("shadow-map", {&volume, 1}, {&surface, 1}))
       configuration["shadow-map"] = fmt::format("{}", shadow_map);
     configuration["exposure"] = fmt::format("{}", *exposure);
-    for (const char* name : {"albedo", "triangles"})
+    configuration["tone-map"] = scene::tone_map_names()[static_cast<std::size_t>(subject.scene.tone_map)];
+    for (const char* name : {"albedo", "looks", "triangles"})
       if (const auto text = options.get(name)) configuration[name] = *text;
     configuration["version"] = quality::version();
     configuration["renderer"] = renderer;
@@ -114,7 +115,8 @@ void render(const Options& options) {
                   .bytes_per_pixel = (subject.path ? k_bytes_of_path : k_bytes_of_render) +
                                      k_bytes_of_rendered_light * (subject.view.lights.size() - 1),
                   .shadow_map = quality::is_read("shadow-map", volumes, surfaces) ? shadow_map : 0,
-                  .triangles = subject.scene.geometry.triangles.size()});
+                  .triangles = subject.scene.geometry.triangles.size(),
+                  .looks = bytes_of_looks(subject.scene.geometry)});
   Images images{.options = options,
                 .subject = subject,
                 .volume = volume,

@@ -14,6 +14,7 @@
 #include "spirv/frame/composite_frag.h"
 #include "spirv/frame/idle_comp.h"
 #include "spirv/frame/idle_frag.h"
+#include "spirv/frame/surroundings_frag.h"
 
 namespace airlight::frame {
 namespace {
@@ -105,7 +106,9 @@ Frame::Frame(gpu::Context& context, const scene::Geometry& geometry, int shadow_
       resources_(context, geometry, shadow_map_size, std::move(scene)),
       camera_block_(sizeof(shaders::CameraBlock)),
       light_block_(sizeof(shaders::LightBlock)),
-      medium_block_(sizeof(shaders::MediumBlock)) {}
+      medium_block_(sizeof(shaders::MediumBlock)) {
+  if (Looks::are_in(geometry)) looks_.emplace(context, geometry, resources_.scene().order());
+}
 
 void Frame::require_images(const scene::View& view, gpu::Format visibility_format) {
   if (!gbuffer_ || radiance_.size() != view.size) {
@@ -153,6 +156,7 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
     write_block(camera_block_, camera_block(camera, view.size, near), shaders::k_camera_block);
     write_block(medium_block_, medium_block(view.medium, camera.eye), shaders::k_medium_block);
     gbuffer_->draw(scene, camera, scene.triangles_at(camera.eye, distance));
+    if (looks_) looks_->draw(scene, gbuffer_->triangles());
   });
 
   const ViewRays rays = airlight.rays();
@@ -220,15 +224,34 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
     radiance_.clear();
     airlight_.clear();
   }
+  timer.begin_part({});
+  if (view.surroundings != scene::Surroundings{})
+    timer.time("composite", [&] { add_surroundings(view.surroundings); });
   context_.check();
+}
+
+void Frame::add_surroundings(const scene::Surroundings& surroundings) {
+  const bool has_textures = looks_ && looks_->has_textures();
+  if (!surroundings_)
+    surroundings_.emplace(k_surroundings_frag, std::array{gpu::Constant(0, has_textures)}, gpu::Blend::add);
+  resources_.scene().bind_samplers();
+  gbuffer_->triangles().bind_sampler(shaders::k_triangle_unit);
+  gbuffer_->surfaces().bind_sampler(shaders::k_surface_unit);
+  if (has_textures) looks_->base_colours().bind_sampler(shaders::k_base_colour_unit);
+  surroundings_->pipeline().set(0, surroundings.ambient);
+  surroundings_->pipeline().set(1, surroundings.background);
+  surroundings_->run({radiance_});
 }
 
 void Frame::composite(std::size_t light, bool adds) {
   const gpu::Texture* light_texture = resources_.light_texture();
   const bool is_textured = light_texture != nullptr;
+  const bool has_textures = looks_ && looks_->has_textures(), has_normals = looks_ && looks_->has_normals();
   auto& pass = composite_[{is_textured, adds}];
   if (!pass) {
-    pass.emplace(k_composite_frag, std::array{gpu::Constant(0, is_textured)},
+    pass.emplace(k_composite_frag,
+                 std::array{gpu::Constant(0, is_textured), gpu::Constant(1, has_textures),
+                            gpu::Constant(2, has_normals)},
                  adds ? gpu::Blend::add : gpu::Blend::replace);
   }
   resources_.scene().bind_samplers();
@@ -237,6 +260,8 @@ void Frame::composite(std::size_t light, bool adds) {
   visibility_[light].bind_sampler(shaders::k_visibility_unit);
   airlight_of(light).bind_sampler(shaders::k_airlight_unit);
   if (light_texture) light_texture->bind_sampler(shaders::k_light_texture_unit);
+  if (has_textures) looks_->base_colours().bind_sampler(shaders::k_base_colour_unit);
+  if (has_normals) looks_->shading_normals().bind_sampler(shaders::k_shading_normal_unit);
   if (airlight_of_light_.empty()) {
     pass->run({radiance_});
   } else {
@@ -278,6 +303,7 @@ FrameImages Frame::take() {
   // What frees the most goes first.
   images.distance = read_distance(gbuffer_->surfaces());
   gbuffer_.reset();
+  if (looks_) looks_->free_images();
   coarse_image_ = nullptr;
   coarse_images_.clear();
   samples_ = nullptr;

@@ -11,6 +11,7 @@
 #include "frame/coarse_image.h"
 #include "frame/epipolar_samples.h"
 #include "frame/gbuffer.h"
+#include "frame/looks.h"
 #include "frame/methods.h"
 #include "frame/resources.h"
 #include "frame/screen_pass.h"
@@ -22,7 +23,7 @@ namespace airlight::frame {
 /// A finished frame, read back; row 0 at the top, nothing clamped.
 struct FrameImages {
   glm::ivec2 size{0};
-  std::vector<glm::vec3> radiance;  ///< surfaces and airlight [W/(m² sr)]
+  std::vector<glm::vec3> radiance;  ///< all that is seen [W/(m² sr)]
   std::vector<glm::vec3> airlight;  ///< airlight alone [W/(m² sr)]
 
   std::vector<std::string> lights;  ///< the name of each
@@ -76,6 +77,7 @@ class Frame {
  private:
   void require_images(const scene::View& view, gpu::Format visibility_format);
   void composite(std::size_t light, bool adds);
+  void add_surroundings(const scene::Surroundings& surroundings);
   /// The airlight of one light: of a light alone, all there is.
   const gpu::Texture& airlight_of(std::size_t light) const {
     return airlight_of_light_.empty() ? airlight_ : airlight_of_light_[light];
@@ -86,6 +88,8 @@ class Frame {
   gpu::Buffer camera_block_, light_block_, medium_block_;
   std::map<std::pair<bool, bool>, std::optional<ScreenPass>>
       composite_;  ///< by: the light is textured, it adds to others
+  std::optional<ScreenPass> surroundings_;
+  std::optional<Looks> looks_;  ///< where the scene has any
 
   std::optional<GBuffer> gbuffer_;
   std::map<Where, CoarseImage> coarse_images_;  ///< each stays, with its program, when methods take turns

@@ -36,6 +36,8 @@ FormatInfo format_info(Format format) {
       return {GL_RGB32F, GL_RGB, GL_FLOAT, 12, 12};
     case Format::rgba32f:
       return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16, 16};
+    case Format::srgb8_alpha8:
+      return {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4, 4};
     case Format::depth32f:
       return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4, 4};
     case Format::rgba8:
@@ -96,6 +98,7 @@ Texture::Texture(unsigned target, Format format, glm::ivec3 size, int levels)
       format_(format),
       size_(size),
       is_volume_(target == GL_TEXTURE_3D),
+      is_image_(target == GL_TEXTURE_2D),
       levels_(levels) {
   const GLenum internal_format = format_info(format).internal_format;
   if (target == GL_TEXTURE_2D) {
@@ -146,7 +149,7 @@ void Texture::clear() const {
 void Texture::write(const void* values, int level) const {
   const FormatInfo info = format_info(format_);
   const glm::ivec3 size = extent(level);
-  if (is_volume_ || size.z > 1) {
+  if (!is_image_) {
     glTextureSubImage3D(name(), level, 0, 0, 0, size.x, size.y, size.z, info.channels, info.type, values);
   } else {
     glTextureSubImage2D(name(), level, 0, 0, size.x, size.y, info.channels, info.type, values);

@@ -27,6 +27,7 @@ enum class Format {
   rg32f,
   rgb32f,
   rgba32f,
+  srgb8_alpha8,
   depth32f,
   depth32f_stencil8,
   rgba8,  ///< colours from 0 to 1, as windows have them
@@ -87,8 +88,8 @@ class Texture {
   void write(const void* values, int level = 0) const;
 
   /// Waits for the GPU and copies a level back.
-  /// @tparam T one texel: as many channels as the format has, in 32 bits also where the format has 16; or
-  /// DepthStencil
+  /// @tparam T one texel: as many channels as the format has, in 32 bits also where the format has 16, of
+  /// srgb8_alpha8 in 8, encoded; or DepthStencil
   /// @returns row 0 first, layer after layer
   template <typename T>
   std::vector<T> read(int level = 0) const {
@@ -122,6 +123,7 @@ class Texture {
   Format format_{};
   glm::ivec3 size_{0};
   bool is_volume_ = false;
+  bool is_image_ = false;  ///< no array and no volume
   int levels_ = 0;
 };
 

@@ -72,14 +72,15 @@ void write_truth(const CompareRequest& request, const frame::FrameImages& images
       metadata_of(request, volume.spec, surface.spec, command_of(request, "reference", volume, surface));
   metadata["airlight.bound"] = fmt::format("{}", truth.figures.bound);
   write_frame(request.directory / "reference.exr", images, metadata);
-  write_png(request.directory / "reference.png", images.radiance, images.size, exposure.value);
+  write_png(request.directory / "reference.png", images.radiance, images.size, exposure.value,
+            request.scene.tone_map);
 }
 
 /// The previews of a run. @param ending of their names, before the format's
 void write_previews(const CompareRequest& request, const std::string& name, const std::string& ending,
                     const frame::FrameImages& images, const Truth& truth, const Exposure& exposure) {
   const auto file = [&](const char* kind) { return request.directory / (name + kind + ending + ".png"); };
-  write_png(file(""), images.radiance, images.size, exposure.value);
+  write_png(file(""), images.radiance, images.size, exposure.value, request.scene.tone_map);
   write_png(file("_error"), error_colours(images.airlight, truth.airlight), images.size, 1.0f);
   write_png(file("_surface"), surface_colours(images, truth.verdicts), images.size, 1.0f);
 }
@@ -125,7 +126,7 @@ std::vector<Truth> trace_path(const CompareRequest& request, Measurer& measurer,
     const frame::FrameImages images = images_of_truth(measurer, truth);
     if (i == 0) comparison.exposure = choose_exposure(request, images.radiance);
     write_png(request.directory / fmt::format("reference{}.png", scene::frame_ending(i)), images.radiance,
-              images.size, comparison.exposure.value);
+              images.size, comparison.exposure.value, request.scene.tone_map);
 
     const TruthFigures& figures = truth.figures;
     path.frames.push_back(

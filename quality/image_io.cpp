@@ -19,7 +19,9 @@
 #include <fmt/format.h>
 #include <png.h>
 
+#include "quality/tone_map.h"
 #include "scene/error.h"
+#include "scene/srgb.h"
 
 namespace airlight::quality {
 
@@ -108,31 +110,6 @@ Image read_exr_unchecked(const std::filesystem::path& file) {
   return image;
 }
 
-/// The sRGB transfer function, IEC 61966-2-1: linear [0, 1] to encoded [0, 1].
-double srgb_from_linear(double linear) {
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-}
-
-/// Encodes linear values as 8-bit sRGB, rounded to the nearest, by a table.
-class SrgbEncoder {
- public:
-  SrgbEncoder() {
-    for (std::size_t i = 0; i <= k_steps; ++i)
-      table_[i] = static_cast<std::uint8_t>(
-          std::lround(255.0 * srgb_from_linear(static_cast<double>(i) / static_cast<double>(k_steps))));
-  }
-  std::uint8_t operator()(float linear) const {
-    // Clamps what is not a number to 0, too: it is refused elsewhere.
-    const float scaled = linear > 0.0f ? std::min(linear, 1.0f) * static_cast<float>(k_steps) : 0.0f;
-    return table_[static_cast<std::size_t>(scaled + 0.5f)];
-  }
-
- private:
-  /// The darkest step of sRGB is 1/(255 · 12.92) wide: 20 of these.
-  static constexpr std::size_t k_steps = 1 << 16;
-  std::array<std::uint8_t, k_steps + 1> table_;
-};
-
 }  // namespace
 
 void write_exr(const std::filesystem::path& file, const ImageView& image) {
@@ -180,10 +157,10 @@ Image read_exr(const std::filesystem::path& file) {
 }
 
 void write_png(const std::filesystem::path& file, std::span<const glm::vec3> radiance, glm::ivec2 size,
-               float exposure) {
+               float exposure, scene::ToneMap tone_map) {
   if (size.x < 1 || size.y < 1) fail(file, "the image has no pixels");
   assert(radiance.size() == pixel_count(size));
-  static const SrgbEncoder encode;
+  static const scene::SrgbEncoder encode;
   std::vector<std::uint8_t> encoded(3 * radiance.size());
   for (std::size_t i = 0; i < radiance.size(); ++i) {
     for (int channel = 0; channel < 3; ++channel) {
@@ -192,8 +169,10 @@ void write_png(const std::filesystem::path& file, std::span<const glm::vec3> rad
         fail(file, fmt::format("channel {} is {} at pixel ({}, {})", "RGB"[channel], value,
                                i % static_cast<std::size_t>(size.x), i / static_cast<std::size_t>(size.x)));
       }
-      encoded[3 * i + static_cast<std::size_t>(channel)] = encode(exposure * value);
     }
+    const glm::vec3 shown = tone_mapped(tone_map, exposure * radiance[i]);
+    for (int channel = 0; channel < 3; ++channel)
+      encoded[3 * i + static_cast<std::size_t>(channel)] = encode(shown[channel]);
   }
   png_image image{};
   image.version = PNG_IMAGE_VERSION;

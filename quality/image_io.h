@@ -8,6 +8,8 @@
 
 #include <glm/glm.hpp>
 
+#include "scene/scene.h"
+
 namespace airlight::quality {
 
 /// An image of named 32-bit float channels, row 0 at the top, with string metadata.
@@ -40,10 +42,9 @@ void write_exr(const std::filesystem::path& file, const Image& image);
 /// @throws scene::Error (bad_file)
 Image read_exr(const std::filesystem::path& file);
 
-/// Writes an 8-bit sRGB preview of linear radiance: exposure, clamp to [0, 1], sRGB transfer. No tone
-/// mapping.
+/// Writes an 8-bit sRGB preview of linear radiance: exposure, tone map (quality/tone_map.h), sRGB transfer.
 /// @throws scene::Error (bad_file)
 void write_png(const std::filesystem::path& file, std::span<const glm::vec3> radiance, glm::ivec2 size,
-               float exposure);
+               float exposure, scene::ToneMap tone_map = scene::ToneMap::none);
 
 }  // namespace airlight::quality

@@ -198,6 +198,7 @@ void choose_all(const Choices& choices, std::span<const std::unique_ptr<const Ch
   choose_camera(choices, scene.cameras, scene.geometry);
   choose_lights(lights, scene);
   choose(choices, scene.medium);
+  choose(choices, scene.surroundings);
   choose(choices, scene);
 }
 

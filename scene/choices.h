@@ -61,9 +61,9 @@ bool is_of_light(const FieldInfo& field);
 /// Whether it says which light is meant: one of the scene's, or a new one by where it stands.
 bool names_light(const FieldInfo& field);
 
-/// Makes the scene's first camera, its lights, its medium and its own fields those chosen. Afterwards it has
-/// a camera; its lights are those chosen or, where none is, those that were on; each that it has, on or
-/// off, has a name of its own.
+/// Makes the scene's first camera, its lights, its medium, its surroundings and its own fields those chosen.
+/// Afterwards it has a camera; its lights are those chosen or, where none is, those that were on; each that
+/// it has, on or off, has a name of its own.
 /// @param choices of all that is no light's
 /// @param lights the choices of each light. Where there is one alone that does not say which light it means,
 /// it means the scene's only one

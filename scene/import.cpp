@@ -7,17 +7,20 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "scene/decode_image.h"
 #include "scene/import_internal.h"
 
 namespace airlight::scene {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Scene (*)(const std::filesystem::path&)>, 4> k_importers = {
-    {{".gltf", import_gltf}, {".glb", import_gltf}, {".obj", import_obj}, {".ply", import_ply}}};
+constexpr std::array<std::pair<std::string_view, Scene (*)(const std::filesystem::path&, Looks)>, 4>
+    k_importers = {
+        {{".gltf", import_gltf}, {".glb", import_gltf}, {".obj", import_obj}, {".ply", import_ply}}};
 
 bool has_area(const RawGeometry& raw, glm::uvec3 triangle) {
   // In single precision, as every method will see them: corners can coincide after rounding. The differences
@@ -26,6 +29,35 @@ bool has_area(const RawGeometry& raw, glm::uvec3 triangle) {
   const glm::dvec3 b(glm::vec3(raw.positions[triangle.y]));
   const glm::dvec3 c(glm::vec3(raw.positions[triangle.z]));
   return glm::cross(b - a, c - a) != glm::dvec3(0.0);
+}
+
+/// Of unit length; 0 of what is no direction.
+glm::vec3 unit_normal(glm::vec3 normal) {
+  const glm::dvec3 n(normal);
+  const double largest = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
+  if (!(largest > 0.0) || !std::isfinite(n.x + n.y + n.z)) return glm::vec3(0.0f);
+  return glm::vec3(unit(n));
+}
+
+/// The normals of a triangle's corners, turned to the side of its own. Models are wound as they like: most of
+/// the corners tell on which side theirs are.
+std::array<glm::vec3, 3> turned_normals(const RawGeometry& raw, std::size_t triangle) {
+  const glm::uvec3 t = raw.triangles[triangle];
+  const glm::dvec3 a = raw.positions[t.x], b = raw.positions[t.y], c = raw.positions[t.z];
+  const glm::vec3 own(unit(glm::cross(b - a, c - a)));
+  std::array<glm::vec3, 3> normals{};
+  float same_side = 0.0f;
+  for (std::size_t i = 0; i < 3; ++i) {
+    normals[i] = unit_normal(raw.normals[triangle][i]);
+    same_side += glm::dot(normals[i], own);
+  }
+  for (glm::vec3& normal : normals) {
+    if (normal == glm::vec3(0.0f))
+      normal = own;
+    else if (same_side < 0.0f)
+      normal = -normal;
+  }
+  return normals;
 }
 
 }  // namespace
@@ -92,6 +124,31 @@ glm::vec3 albedo(const std::filesystem::path& file, const std::string& place, gl
   return glm::vec3(value);
 }
 
+TextureImage texture_image(const std::filesystem::path& file, const std::string& place,
+                           const std::string& image, std::span<const unsigned char> bytes) {
+  try {
+    return decode_image(bytes);
+  } catch (const std::runtime_error& error) {
+    throw texture_error(file, place, image, error.what());
+  }
+}
+
+Error texture_error(const std::filesystem::path& file, const std::string& place, const std::string& image,
+                    const std::string& problem) {
+  return file_error(file, fmt::format("{}, base-colour texture{}{}", place, image.empty() ? "" : " ", image),
+                    printable(problem), "repair it, or show the model by --looks flat");
+}
+
+std::uint32_t untextured(RawGeometry& raw, std::uint32_t material,
+                         std::map<std::uint32_t, std::uint32_t>& known) {
+  const auto [copy, is_new] = known.try_emplace(material, static_cast<std::uint32_t>(raw.materials.size()));
+  if (is_new) {
+    const glm::vec3 colour = raw.materials[material].albedo;
+    raw.materials.push_back({colour});
+  }
+  return copy->second;
+}
+
 Geometry clean(const std::filesystem::path& file, RawGeometry raw, ImportReport& report) {
   // Every position is finite, and so are the squares of their distances.
   double reach = 0.0;
@@ -109,25 +166,41 @@ Geometry clean(const std::filesystem::path& file, RawGeometry raw, ImportReport&
                     reach, k_largest_coordinate),
         "scale the model down");
 
+  // And so is every place in a texture.
+  for (std::size_t i = 0; i < raw.texture_places.size(); ++i)
+    for (int corner = 0; corner < 3; ++corner)
+      for (int axis = 0; axis < 2; ++axis)
+        if (const float c = raw.texture_places[i][static_cast<std::size_t>(corner)][axis];
+            !(std::abs(c) <= static_cast<float>(k_largest_coordinate)))
+          throw file_error(file, raw.place_of_vertex(raw.triangles[i][corner]),
+                           fmt::format("the texture coordinate {:g} is not finite, or overflows", c));
+  if (!raw.texture_places.empty()) raw.texture_places.resize(raw.triangles.size());
+  if (!raw.normals.empty()) raw.normals.resize(raw.triangles.size());
+
   // Triangles that have an area.
   Geometry geometry;
   geometry.triangles.reserve(raw.triangles.size());
   geometry.material_of_triangle.reserve(raw.triangles.size());
+  geometry.texture_places.reserve(raw.texture_places.size());
+  geometry.normals.reserve(raw.normals.size());
   for (std::size_t i = 0; i < raw.triangles.size(); ++i) {
     assert(raw.material_of_triangle[i] < raw.materials.size());
     if (!has_area(raw, raw.triangles[i])) continue;
     geometry.triangles.push_back(raw.triangles[i]);
     geometry.material_of_triangle.push_back(raw.material_of_triangle[i]);
+    if (!raw.texture_places.empty()) geometry.texture_places.push_back(raw.texture_places[i]);
+    if (!raw.normals.empty()) geometry.normals.push_back(turned_normals(raw, i));
   }
   report.degenerate_triangles = raw.triangles.size() - geometry.triangles.size();
   if (geometry.triangles.empty()) report.warnings.push_back("the file has no triangles");
 
   geometry.positions.assign(raw.positions.begin(), raw.positions.end());
   geometry.materials = std::move(raw.materials);
+  geometry.textures = std::move(raw.textures);
   return geometry;
 }
 
-Scene import_scene(const std::filesystem::path& file) {
+Scene import_scene(const std::filesystem::path& file, Looks looks) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -140,7 +213,7 @@ Scene import_scene(const std::filesystem::path& file) {
                      "give a .gltf, .glb, .obj or .ply file");
 
   try {
-    Scene scene = found->second(file);
+    Scene scene = found->second(file, looks);
     scene.name = file.stem().string();
     return scene;
   } catch (const Error&) {

@@ -29,6 +29,7 @@ namespace airlight::scene {
 namespace {
 
 constexpr std::string_view k_lights = "KHR_lights_punctual";
+constexpr std::string_view k_transform = "KHR_texture_transform";
 /// Real files stay below 20 levels of nesting; the recursion that walks the values must not meet thousands.
 constexpr int k_most_nesting = 100;
 /// Instances multiply: a small file can ask for more than any memory.
@@ -80,6 +81,7 @@ constexpr auto k_rules = std::to_array<Rule>({
     {"accessors", Kind::objects},
     {"attributes", Kind::object},
     {"baseColorFactor", Kind::numbers, 4},
+    {"baseColorTexture", Kind::object},
     {"buffer", Kind::index},
     {"bufferView", Kind::index},
     {"bufferViews", Kind::objects},
@@ -97,6 +99,8 @@ constexpr auto k_rules = std::to_array<Rule>({
     {"extensions", Kind::object},
     {"extensionsRequired", Kind::strings},
     {"extensionsUsed", Kind::strings},
+    {"images", Kind::objects},
+    {"index", Kind::index},
     {"indices", Kind::index, 0, Kind::object},
     {"innerConeAngle", Kind::number},
     {"intensity", Kind::number},
@@ -115,13 +119,20 @@ constexpr auto k_rules = std::to_array<Rule>({
     {"primitives", Kind::objects},
     {"range", Kind::number},
     {"rotation", Kind::numbers, 4},
+    {"sampler", Kind::index},
+    {"samplers", Kind::objects},
     {"scale", Kind::numbers, 3, Kind::number},
     {"scene", Kind::index},
     {"scenes", Kind::objects},
     {"skin", Kind::index},
+    {"source", Kind::index},
     {"sparse", Kind::object},
     {"spot", Kind::object},
+    {"texCoord", Kind::index},
+    {"textures", Kind::objects},
     {"translation", Kind::numbers, 3},
+    {"wrapS", Kind::index},
+    {"wrapT", Kind::index},
     {"yfov", Kind::number},
 });
 
@@ -209,7 +220,7 @@ void check_required_extensions(const std::filesystem::path& file, const nlohmann
   if (required == document.end() || !is_kind(*required, Kind::strings, 0)) return;
   std::string unsupported;
   for (const nlohmann::json& name : *required)
-    if (name != k_lights)
+    if (name != k_lights && name != k_transform)
       unsupported += fmt::format("{}{}", unsupported.empty() ? "" : ", ", printable(name.get<std::string>()));
   if (unsupported.empty()) return;
   const bool are_several = unsupported.find(',') != std::string::npos;
@@ -257,21 +268,29 @@ bool read_buffer(std::vector<unsigned char>* bytes, std::string* message, const 
   }
 }
 
+/// Keeps the bytes of an image of its own, undecoded. (Where it lies in a buffer, they are kept there, and
+/// tinygltf has not checked that they do.)
+bool keep_image(tinygltf::Image* image, int, std::string*, std::string*, int, int, const unsigned char* bytes,
+                int size, void*) {
+  if (image->bufferView < 0) image->image.assign(bytes, bytes + size);
+  return true;
+}
+
 bool skip_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int,
                 void*) {
   return true;
 }
 
-tinygltf::Model load(const std::filesystem::path& file, const std::string& bytes) {
+tinygltf::Model load(const std::filesystem::path& file, const std::string& bytes, Looks looks) {
   if (bytes.size() > std::numeric_limits<unsigned int>::max())
     throw file_error(file, "", "the file is larger than 4 GiB",
                      "split it, or keep its buffers in files of their own");
   tinygltf::TinyGLTF loader;
   loader.SetFsCallbacks({file_exists, same_path, read_buffer, nullptr, nullptr});
-  loader.SetImageLoader(skip_image, nullptr);
+  loader.SetImageLoader(looks == Looks::textured ? keep_image : skip_image, nullptr);
 
   tinygltf::Model model;
-  std::string errors, warnings;  // the warnings are about images only
+  std::string errors, warnings;  // the warnings are about images only: one that lacks bytes is told of later
   const std::string folder = std::filesystem::absolute(file).parent_path().string();
   const auto size = static_cast<unsigned int>(bytes.size());
   const bool loaded =
@@ -289,15 +308,17 @@ tinygltf::Model load(const std::filesystem::path& file, const std::string& bytes
 /// Turns a loaded model into a scene: one object a file.
 class Importer {
  public:
-  Importer(const std::filesystem::path& file, const tinygltf::Model& model) : file_(file), model_(model) {}
+  Importer(const std::filesystem::path& file, const tinygltf::Model& model, Looks looks)
+      : file_(file), model_(model), looks_(looks) {}
 
   Scene import() {
     warn_of_extensions();
     read_materials();
     walk_nodes();
-    count(model_.textures.size(), "textures", "surfaces have one colour");
+    count_textures();
     count(model_.animations.size(), "animations", "the scene is shown at rest");
     report_counts();
+    count_warning(scene_.report, untextured_triangles_, k_untextured);
 
     raw_.place_of_vertex = [this](std::size_t vertex) { return place_of_vertex(vertex); };
     scene_.geometry = clean(file_, std::move(raw_), scene_.report);
@@ -348,7 +369,7 @@ class Importer {
 
   void warn_of_extensions() {
     for (const std::string& name : model_.extensionsUsed)
-      if (name != k_lights)
+      if (name != k_lights && name != k_transform)
         scene_.report.warnings.push_back(
             fmt::format("extension {} ignored: what it adds is not shown", printable(name)));
   }
@@ -359,8 +380,12 @@ class Importer {
     for (std::size_t i = 0; i < model_.materials.size(); ++i) {
       const tinygltf::Material& material = model_.materials[i];
       const std::vector<double>& color = material.pbrMetallicRoughness.baseColorFactor;
-      raw_.materials.push_back(
-          {albedo(file_, place("material", i, material.name), {color[0], color[1], color[2]})});
+      const std::string where = place("material", i, material.name);
+      Material& read = raw_.materials.emplace_back();
+      read.albedo = albedo(file_, where, {color[0], color[1], color[2]});
+      const tinygltf::TextureInfo& texture = material.pbrMetallicRoughness.baseColorTexture;
+      places_.emplace_back();
+      if (looks_ == Looks::textured && texture.index >= 0) read_texture(texture, where, read, places_.back());
 
       const std::vector<double>& emission = material.emissiveFactor;
       count(std::ranges::any_of(emission, [](double e) { return e != 0.0; }), "light of emissive materials",
@@ -371,7 +396,101 @@ class Importer {
             "surfaces are opaque");
     }
     // glTF's default material, for primitives without one.
+    default_material_ = static_cast<std::uint32_t>(raw_.materials.size());
     raw_.materials.push_back({glm::vec3(1.0f)});
+    places_.emplace_back();
+  }
+
+  // -- Textures --
+
+  /// How a material's texture lies on a primitive.
+  struct Placing {
+    int set = 0;  ///< of the primitive's TEXCOORD_n
+    // KHR_texture_transform:
+    glm::dvec2 offset{0.0}, scale{1.0};
+    double rotation = 0.0;  ///< [rad]
+
+    glm::dvec2 operator()(glm::dvec2 place) const {
+      const glm::dvec2 scaled = scale * place;
+      const double c = std::cos(rotation), s = std::sin(rotation);
+      return offset + glm::dvec2(c * scaled.x + s * scaled.y, c * scaled.y - s * scaled.x);
+    }
+  };
+
+  static TextureWrap wrap_of(int mode) {
+    return mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE     ? TextureWrap::clamp
+           : mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? TextureWrap::mirror
+                                                           : TextureWrap::repeat;
+  }
+
+  void read_texture(const tinygltf::TextureInfo& info, const std::string& where, Material& material,
+                    Placing& placing) {
+    const tinygltf::Texture& texture = at(model_.textures, info.index, "texture", where);
+    if (texture.source < 0)
+      throw texture_error(file_, where, fmt::format("{}", info.index), "it names no image");
+    material.texture = read_image(texture.source, where);
+    if (texture.sampler >= 0) {
+      const tinygltf::Sampler& sampler = at(model_.samplers, texture.sampler, "sampler", where);
+      material.wrap = {wrap_of(sampler.wrapS), wrap_of(sampler.wrapT)};
+    }
+    placing.set = info.texCoord;
+    if (const auto transform = info.extensions.find(std::string(k_transform));
+        transform != info.extensions.end())
+      read_transform(transform->second, fmt::format("{}, {}", where, k_transform), placing);
+  }
+
+  void read_transform(const tinygltf::Value& transform, const std::string& where, Placing& placing) const {
+    const auto number = [&](const tinygltf::Value& value, const std::string& name) {
+      if (!value.IsNumber() || !std::isfinite(value.GetNumberAsDouble()))
+        throw error(where, fmt::format("its {} is not a finite number", name));
+      return value.GetNumberAsDouble();
+    };
+    const auto set_pair = [&](const std::string& name, glm::dvec2& pair) {
+      if (!transform.Has(name)) return;
+      const tinygltf::Value& value = transform.Get(name);
+      if (!value.IsArray() || value.ArrayLen() != 2)
+        throw error(where, fmt::format("its {} is not two numbers", name));
+      pair = {number(value.Get(0), name), number(value.Get(1), name)};
+    };
+    set_pair("offset", placing.offset);
+    set_pair("scale", placing.scale);
+    if (transform.Has("rotation")) placing.rotation = number(transform.Get("rotation"), "rotation");
+    if (transform.Has("texCoord")) {
+      if (!transform.Get("texCoord").IsInt()) throw error(where, "its texCoord is not a whole number");
+      placing.set = transform.Get("texCoord").GetNumberAsInt();
+    }
+  }
+
+  /// @returns which of Geometry::textures it is; each image is decoded once
+  std::uint32_t read_image(int index, const std::string& where) {
+    const auto [known, is_new] =
+        texture_of_image_.try_emplace(index, static_cast<std::uint32_t>(raw_.textures.size()));
+    if (!is_new) return known->second;
+    const tinygltf::Image& image = at(model_.images, index, "image", where);
+    const std::string name = image.uri.empty() ? place("image", static_cast<std::size_t>(index), image.name)
+                                               : fmt::format("'{}'", printable(image.uri));
+    std::span<const unsigned char> bytes = image.image;
+    if (image.bufferView >= 0) {
+      const std::size_t size = at(model_.bufferViews, image.bufferView, "buffer view", where).byteLength;
+      if (size > 0) bytes = {elements(image.bufferView, 0, 1, size, true, where).first, size};
+    } else if (bytes.empty()) {
+      throw texture_error(file_, where, name, "there is no such file");
+    }
+    raw_.textures.push_back(texture_image(file_, where, name, bytes));
+    return known->second;
+  }
+
+  void count_textures() {
+    std::size_t shown = 0;
+    if (looks_ == Looks::textured) {
+      std::vector<bool> is_shown(model_.textures.size(), false);
+      for (const tinygltf::Material& material : model_.materials)
+        if (const int index = material.pbrMetallicRoughness.baseColorTexture.index; index >= 0)
+          is_shown[static_cast<std::size_t>(index)] = true;
+      shown = static_cast<std::size_t>(std::ranges::count(is_shown, true));
+    }
+    count(model_.textures.size() - shown, "textures",
+          looks_ == Looks::textured ? "only base colours are shown" : "surfaces have one colour");
   }
 
   // -- Nodes --
@@ -591,24 +710,53 @@ class Importer {
     return indices;
   }
 
-  std::vector<glm::dvec3> read_positions(int accessor_index, const std::string& user) const {
+  std::vector<glm::dvec3> read_float_vectors(int accessor_index, std::string_view what,
+                                             const std::string& user) const {
     const tinygltf::Accessor& accessor = at(model_.accessors, accessor_index, "accessor", user);
     const std::string where = fmt::format("accessor {}", accessor_index);
     if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT || accessor.type != TINYGLTF_TYPE_VEC3)
-      throw error(where, "positions must be vectors of three floats");
+      throw error(where, fmt::format("{} must be vectors of three floats", what));
+    return read_vectors(accessor, where, 3);
+  }
+
+  /// Places in a texture.
+  std::vector<glm::dvec3> read_places(int accessor_index, const std::string& user) const {
+    const tinygltf::Accessor& accessor = at(model_.accessors, accessor_index, "accessor", user);
+    const std::string where = fmt::format("accessor {}", accessor_index);
+    const int type = accessor.componentType;
+    const bool is_fraction = accessor.normalized && (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                                                     type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
+    if ((type != TINYGLTF_COMPONENT_TYPE_FLOAT && !is_fraction) || accessor.type != TINYGLTF_TYPE_VEC2)
+      throw error(where,
+                  "texture coordinates must be pairs of floats, or of normalized 8 or 16 unsigned bits");
+    return read_vectors(accessor, where, 2);
+  }
+
+  /// Of as many components, each a float or a fraction in unsigned bits.
+  std::vector<glm::dvec3> read_vectors(const tinygltf::Accessor& accessor, const std::string& where,
+                                       int components) const {
     check_count(accessor.count, where);
-    constexpr std::size_t k_size = 3 * sizeof(float);
-    const auto position_at = [](const unsigned char* bytes) {
-      float p[3];
-      std::memcpy(p, bytes, k_size);
-      return glm::dvec3(p[0], p[1], p[2]);
+    const std::size_t bits_size = index_size(accessor.componentType);
+    const bool is_float = accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
+    const std::size_t component_size = is_float ? sizeof(float) : bits_size;
+    const std::size_t size_of_one = static_cast<std::size_t>(components) * component_size;
+    const auto vector_at = [&](const unsigned char* bytes) {
+      glm::dvec3 v(0.0);
+      for (int i = 0; i < components; ++i, bytes += component_size) {
+        float number = 0.0f;
+        if (is_float) std::memcpy(&number, bytes, sizeof number);
+        v[i] = is_float
+                   ? static_cast<double>(number)
+                   : index_at(bytes, bits_size) / (std::exp2(8.0 * static_cast<double>(bits_size)) - 1.0);
+      }
+      return v;
     };
 
-    std::vector<glm::dvec3> positions(accessor.count, glm::dvec3(0.0));
+    std::vector<glm::dvec3> vectors(accessor.count, glm::dvec3(0.0));
     if (accessor.bufferView >= 0) {
       const Elements source =
-          elements(accessor.bufferView, accessor.byteOffset, accessor.count, k_size, true, where);
-      for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = position_at(source[i]);
+          elements(accessor.bufferView, accessor.byteOffset, accessor.count, size_of_one, true, where);
+      for (std::size_t i = 0; i < vectors.size(); ++i) vectors[i] = vector_at(source[i]);
     } else if (!accessor.sparse.isSparse) {
       throw error(where, "it has no data");
     }
@@ -617,7 +765,7 @@ class Importer {
       const auto& sparse = accessor.sparse;
       const std::size_t size = index_size(sparse.indices.componentType);
       if (size == 0) throw error(where, "its sparse indices must be of 8, 16 or 32 unsigned bits");
-      if (sparse.count < 1 || static_cast<std::size_t>(sparse.count) > positions.size() ||
+      if (sparse.count < 1 || static_cast<std::size_t>(sparse.count) > vectors.size() ||
           sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0)
         throw error(where, "its sparse part is broken");
       const auto replaced = static_cast<std::size_t>(sparse.count);
@@ -626,16 +774,16 @@ class Importer {
                    size, false, where);
       const Elements value =
           elements(sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset), replaced,
-                   k_size, false, where);
+                   size_of_one, false, where);
       for (std::size_t i = 0; i < replaced; ++i) {
         const std::uint32_t target = index_at(index[i], size);
-        if (target >= positions.size())
+        if (target >= vectors.size())
           throw error(where,
-                      fmt::format("sparse index {} is out of range: {} elements", target, positions.size()));
-        positions[target] = position_at(value[i]);
+                      fmt::format("sparse index {} is out of range: {} elements", target, vectors.size()));
+        vectors[target] = vector_at(value[i]);
       }
     }
-    return positions;
+    return vectors;
   }
 
   // -- Meshes --
@@ -665,13 +813,17 @@ class Importer {
       const auto [known, is_new] = first_of_accessor.try_emplace(attribute->second, raw_.positions.size());
       if (is_new) {
         runs_.push_back({raw_.positions.size(), where});
-        for (glm::dvec3 position : read_positions(attribute->second, where))
+        for (glm::dvec3 position : read_float_vectors(attribute->second, "positions", where))
           raw_.positions.push_back(glm::dvec3(world_from_node * glm::dvec4(position, 1.0)));
       }
+      const std::size_t first_triangle = raw_.triangles.size();
       add_triangles(primitive, known->second, accessor.count, where);
       if (std::max(raw_.positions.size(), raw_.triangles.size()) > k_most_elements)
         throw error(where,
                     fmt::format("with it the scene has more than {} vertices or triangles", k_most_elements));
+      if (looks_ == Looks::flat) continue;
+      add_texture_places(primitive, known->second, accessor.count, first_triangle, where);
+      add_normals(primitive, world_from_node, known->second, accessor.count, first_triangle, where);
     }
   }
 
@@ -687,7 +839,7 @@ class Importer {
       return static_cast<std::uint32_t>(first + index);
     };
 
-    std::uint32_t material = static_cast<std::uint32_t>(raw_.materials.size() - 1);
+    std::uint32_t material = default_material_;
     if (primitive.material >= 0) {
       at(model_.materials, primitive.material, "material", where);
       material = static_cast<std::uint32_t>(primitive.material);
@@ -709,6 +861,49 @@ class Importer {
     raw_.material_of_triangle.resize(raw_.triangles.size(), material);
   }
 
+  /// Of the primitive's triangles, the last ones, where their material has a texture.
+  void add_texture_places(const tinygltf::Primitive& primitive, std::size_t first, std::size_t vertices,
+                          std::size_t first_triangle, const std::string& where) {
+    const std::size_t material = raw_.material_of_triangle[first_triangle];
+    if (!raw_.materials[material].texture) return;
+    const Placing& placing = places_[material];
+    const std::string name = fmt::format("TEXCOORD_{}", placing.set);
+    const auto attribute = primitive.attributes.find(name);
+    if (attribute == primitive.attributes.end()) {
+      const std::uint32_t plain = untextured(raw_, static_cast<std::uint32_t>(material), untextured_);
+      std::fill(raw_.material_of_triangle.begin() + static_cast<std::ptrdiff_t>(first_triangle),
+                raw_.material_of_triangle.end(), plain);
+      untextured_triangles_ += raw_.triangles.size() - first_triangle;
+      return;
+    }
+    const std::vector<glm::dvec3> places = read_places(attribute->second, where);
+    if (places.size() != vertices)
+      throw error(where, fmt::format("it has {} {} for {} vertices", places.size(), name, vertices));
+    raw_.texture_places.resize(raw_.triangles.size());
+    for (std::size_t i = first_triangle; i < raw_.triangles.size(); ++i)
+      for (int corner = 0; corner < 3; ++corner)
+        raw_.texture_places[i][static_cast<std::size_t>(corner)] =
+            placing(glm::dvec2(places[raw_.triangles[i][corner] - first]));
+  }
+
+  /// As `add_texture_places`, where it has normals.
+  void add_normals(const tinygltf::Primitive& primitive, const glm::dmat4& world_from_node, std::size_t first,
+                   std::size_t vertices, std::size_t first_triangle, const std::string& where) {
+    const auto attribute = primitive.attributes.find("NORMAL");
+    if (attribute == primitive.attributes.end()) return;
+    const std::vector<glm::dvec3> normals = read_float_vectors(attribute->second, "normals", where);
+    if (normals.size() != vertices)
+      throw error(where, fmt::format("it has {} normals for {} vertices", normals.size(), vertices));
+    // The cofactors turn normals as the matrix turns surfaces, whatever it does to lengths.
+    const glm::dmat3 m(world_from_node);
+    const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+    raw_.normals.resize(raw_.triangles.size());
+    for (std::size_t i = first_triangle; i < raw_.triangles.size(); ++i)
+      for (int corner = 0; corner < 3; ++corner)
+        raw_.normals[i][static_cast<std::size_t>(corner)] =
+            cofactors * normals[raw_.triangles[i][corner] - first];
+  }
+
   std::string place_of_vertex(std::size_t vertex) const {
     const auto after = std::upper_bound(runs_.begin(), runs_.end(), vertex,
                                         [](std::size_t v, const Run& run) { return v < run.first; });
@@ -718,19 +913,26 @@ class Importer {
 
   const std::filesystem::path& file_;
   const tinygltf::Model& model_;
+  Looks looks_;
   Scene scene_;
   RawGeometry raw_;
+  std::vector<Placing> places_;         ///< of each material's texture
+  std::uint32_t default_material_ = 0;  ///< of `raw_.materials`
+  std::map<int, std::uint32_t> texture_of_image_;
+  std::map<std::uint32_t, std::uint32_t>
+      untextured_;  ///< materials, by those that they are without a texture
+  std::size_t untextured_triangles_ = 0;
   std::vector<Run> runs_;                                              ///< in the order of `raw_.positions`
   std::map<std::pair<std::string, std::string>, std::size_t> counts_;  ///< of a kind and a reason
 };
 
 }  // namespace
 
-Scene import_gltf(const std::filesystem::path& file) {
+Scene import_gltf(const std::filesystem::path& file, Looks looks) {
   const std::string bytes = read_file(file);
   check_json(file, json_of(file, bytes));
-  const tinygltf::Model model = load(file, bytes);
-  return Importer(file, model).import();
+  const tinygltf::Model model = load(file, bytes, looks);
+  return Importer(file, model, looks).import();
 }
 
 }  // namespace airlight::scene

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,9 +20,9 @@
 /// What the importers share, and no one else needs.
 namespace airlight::scene {
 
-Scene import_gltf(const std::filesystem::path& file);
-Scene import_obj(const std::filesystem::path& file);
-Scene import_ply(const std::filesystem::path& file);
+Scene import_gltf(const std::filesystem::path& file, Looks looks);
+Scene import_obj(const std::filesystem::path& file, Looks looks);
+Scene import_ply(const std::filesystem::path& file, Looks looks);
 
 /// Ear clipping takes time quadratic and worse in the number of corners.
 inline constexpr std::size_t k_most_corners = 1000;
@@ -30,17 +33,43 @@ struct RawGeometry {
   std::vector<glm::uvec3> triangles;  ///< indices into `positions`, in range
   std::vector<std::uint32_t> material_of_triangle;
   std::vector<Material> materials;
+  std::vector<TextureImage> textures;
+  std::vector<std::array<glm::vec2, 3>> texture_places;  ///< as Geometry's; as many as triangles, or fewer
+  /// As many as triangles, or fewer: of any length and on either side; 0 of corners that have none.
+  std::vector<std::array<glm::vec3, 3>> normals;
   std::function<std::string(std::size_t)> place_of_vertex;  ///< where in the file a position comes from
 };
 
+/// The same material without its texture, for triangles that have no places in it: made where it is not
+/// there.
+/// @param known those made before, by their material
+std::uint32_t untextured(RawGeometry& raw, std::uint32_t material,
+                         std::map<std::uint32_t, std::uint32_t>& known);
+
+/// What is said of those triangles, after their number.
+inline constexpr std::string_view k_untextured =
+    "triangles without texture coordinates shown without their material's texture";
+
 /// Brings what a file holds into the form that `Geometry` promises.
 ///
-/// Drops triangles of zero area and counts them; warns when nothing is left.
-/// @throws Error for a position that is not finite, and for an extent that overflows single precision.
+/// Drops triangles of zero area and counts them; warns when nothing is left. Corners without a normal get
+/// that of their triangle.
+/// @throws Error for a position or a place in a texture that is not finite, and for one that overflows single
+/// precision.
 Geometry clean(const std::filesystem::path& file, RawGeometry raw, ImportReport& report);
 
 /// An albedo of three reflectances. @throws Error when one is outside [0, 1].
 glm::vec3 albedo(const std::filesystem::path& file, const std::string& place, glm::dvec3 value);
+
+/// A texture of a material, decoded.
+/// @param place names the material; @param image names the image, or is empty where the problem does
+/// @throws Error naming them where it is no PNG or JPEG, broken or too large
+TextureImage texture_image(const std::filesystem::path& file, const std::string& place,
+                           const std::string& image, std::span<const unsigned char> bytes);
+
+/// The error of a texture that cannot be shown.
+Error texture_error(const std::filesystem::path& file, const std::string& place, const std::string& image,
+                    const std::string& problem);
 
 /// All bytes of a regular file. @throws Error when it is missing, not a file, empty, or cannot be read.
 std::string read_file(const std::filesystem::path& file);

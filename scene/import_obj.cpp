@@ -127,7 +127,14 @@ class MtlReader : public tinyobj::MaterialReader {
       *warnings += fmt::format("material file '{}' not found: its surfaces have the default colour\n", name);
       return false;
     }
+    const std::size_t first = materials->size();
     tinyobj::LoadMtl(index_of_name, materials, &stream, warnings, errors);
+    // Textures lie relative to the file that names them. Models of other systems have their separators.
+    for (std::size_t i = first; i < materials->size(); ++i) {
+      std::string& texture = (*materials)[i].diffuse_texname;
+      std::replace(texture.begin(), texture.end(), '\\', '/');
+      if (!texture.empty()) texture = (folder_ / name).parent_path() / texture;
+    }
     return true;
   }
 
@@ -147,9 +154,51 @@ void forward_warnings(const std::string& text, ImportReport& report) {
     report.warnings.push_back(count == 1 ? line : fmt::format("{} ({} times)", line, count));
 }
 
+TextureImage read_texture(const std::filesystem::path& model, const std::string& material,
+                          const std::string& texture) {
+  std::string bytes;
+  try {
+    bytes = read_file(texture);
+  } catch (const Error& error) {
+    throw texture_error(model, material, "", error.what());
+  }
+  return texture_image(model, material, fmt::format("'{}'", printable(texture)),
+                       {reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});
+}
+
+Error range_error(const std::filesystem::path& file, const tinyobj::index_t& corner, std::string_view what,
+                  int index, std::size_t count) {
+  return file_error(file, fmt::format("a face at vertex {}", corner.vertex_index + 1),
+                    fmt::format("{} {} is out of range: {}", what, index + 1, count));
+}
+
+/// 0 of a corner without one.
+glm::vec3 normal(const std::filesystem::path& file, const tinyobj::attrib_t& attributes,
+                 const tinyobj::index_t& corner) {
+  if (corner.normal_index < 0) return glm::vec3(0.0f);
+  const auto first = 3 * static_cast<std::size_t>(corner.normal_index);
+  if (first + 2 >= attributes.normals.size())
+    throw range_error(file, corner, "normal", corner.normal_index, attributes.normals.size() / 3);
+  const double* n = &attributes.normals[first];
+  return glm::vec3(n[0], n[1], n[2]);
+}
+
+/// Where a corner lies in its material's texture, by the options -o and -s of map_Kd, of three numbers each.
+/// Images of MTL begin at the bottom.
+glm::vec2 texture_place(const std::filesystem::path& file, const tinyobj::attrib_t& attributes,
+                        const tinyobj::index_t& corner, const tinyobj::texture_option_t& options) {
+  const auto first = 2 * static_cast<std::size_t>(corner.texcoord_index);
+  if (first + 1 >= attributes.texcoords.size())
+    throw range_error(file, corner, "texture coordinate", corner.texcoord_index,
+                      attributes.texcoords.size() / 2);
+  const double u = options.origin_offset[0] + options.scale[0] * attributes.texcoords[first];
+  const double v = options.origin_offset[1] + options.scale[1] * attributes.texcoords[first + 1];
+  return {static_cast<float>(u), static_cast<float>(1.0 - v)};
+}
+
 }  // namespace
 
-Scene import_obj(const std::filesystem::path& file) {
+Scene import_obj(const std::filesystem::path& file, Looks looks) {
   const std::string text = read_file(file);
   Scene scene;
   ImportReport& report = scene.report;
@@ -171,10 +220,19 @@ Scene import_obj(const std::filesystem::path& file) {
   // Materials; the last one is for faces without any.
   RawGeometry raw;
   std::size_t textured = 0, emissive = 0, transparent = 0;
+  std::map<std::string, std::uint32_t> texture_of_file;
   for (const tinyobj::material_t& material : materials) {
     const glm::dvec3 diffuse(material.diffuse[0], material.diffuse[1], material.diffuse[2]);
-    raw.materials.push_back({albedo(file, fmt::format("material '{}'", printable(material.name)), diffuse)});
-    textured += !material.diffuse_texname.empty();
+    const std::string where = fmt::format("material '{}'", printable(material.name));
+    raw.materials.push_back({albedo(file, where, diffuse)});
+    if (looks == Looks::textured && !material.diffuse_texname.empty()) {
+      const auto [known, is_new] = texture_of_file.try_emplace(
+          material.diffuse_texname, static_cast<std::uint32_t>(raw.textures.size()));
+      if (is_new) raw.textures.push_back(read_texture(file, where, material.diffuse_texname));
+      raw.materials.back().texture = known->second;
+      if (material.diffuse_texopt.clamp) raw.materials.back().wrap = {TextureWrap::clamp, TextureWrap::clamp};
+    }
+    textured += looks == Looks::flat && !material.diffuse_texname.empty();
     emissive += material.emission[0] + material.emission[1] + material.emission[2] > 0.0;
     transparent += material.dissolve < 1.0;
   }
@@ -189,6 +247,8 @@ Scene import_obj(const std::filesystem::path& file) {
   for (std::size_t i = 0; i + 2 < attributes.vertices.size(); i += 3)
     raw.positions.emplace_back(attributes.vertices[i], attributes.vertices[i + 1],
                                attributes.vertices[i + 2]);
+  std::map<std::uint32_t, std::uint32_t> plain;  // materials, by those that they are without a texture
+  std::size_t untextured_triangles = 0;
   for (const tinyobj::shape_t& shape : shapes) {
     for (std::size_t face = 0; face < shape.mesh.material_ids.size(); ++face) {
       const tinyobj::index_t* corners = &shape.mesh.indices[3 * face];
@@ -196,6 +256,23 @@ Scene import_obj(const std::filesystem::path& file) {
       const int material = shape.mesh.material_ids[face];
       raw.material_of_triangle.push_back(material >= 0 ? static_cast<std::uint32_t>(material)
                                                        : static_cast<std::uint32_t>(materials.size()));
+      if (looks == Looks::flat) continue;
+      if (std::any_of(corners, corners + 3, [](const auto& corner) { return corner.normal_index >= 0; })) {
+        raw.normals.resize(raw.triangles.size());
+        for (std::size_t corner = 0; corner < 3; ++corner)
+          raw.normals.back()[corner] = normal(file, attributes, corners[corner]);
+      }
+      std::uint32_t& of_triangle = raw.material_of_triangle.back();
+      if (!raw.materials[of_triangle].texture) continue;
+      if (std::any_of(corners, corners + 3, [](const auto& corner) { return corner.texcoord_index < 0; })) {
+        of_triangle = untextured(raw, of_triangle, plain);
+        ++untextured_triangles;
+        continue;
+      }
+      raw.texture_places.resize(raw.triangles.size());
+      for (std::size_t corner = 0; corner < 3; ++corner)
+        raw.texture_places.back()[corner] = texture_place(
+            file, attributes, corners[corner], materials[static_cast<std::size_t>(material)].diffuse_texopt);
     }
   }
   if (raw.triangles.size() < survey.triangles)
@@ -203,6 +280,7 @@ Scene import_obj(const std::filesystem::path& file) {
                   "triangles of polygons that cross themselves could not be cut out");
 
   // What the picture lacks.
+  count_warning(report, untextured_triangles, k_untextured);
   count_warning(report, survey.lines_and_points, "lines and point sets ignored: only faces are rendered");
   if (survey.colors) report.warnings.push_back("vertex colours ignored: surfaces have one colour");
   if (survey.unknown_lines > 0)

@@ -294,7 +294,7 @@ bool names_colour(const Property& property) {
 
 }  // namespace
 
-Scene import_ply(const std::filesystem::path& file) {
+Scene import_ply(const std::filesystem::path& file, Looks) {
   const std::string bytes = read_file(file);
   Scene scene;
   ImportReport& report = scene.report;

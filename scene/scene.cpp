@@ -83,6 +83,12 @@ void validate(const Light& light, const View& view) {
 
 }  // namespace
 
+std::size_t texel_count(const Geometry& geometry) {
+  std::size_t count = 0;
+  for (const TextureImage& texture : geometry.textures) count += texture.texels.size();
+  return count;
+}
+
 Box bounds(const Geometry& geometry) {
   Box box;
   for (glm::uvec3 triangle : geometry.triangles)
@@ -125,6 +131,11 @@ std::span<const std::string_view> phase_names() {
   return k_names;
 }
 
+std::span<const std::string_view> tone_map_names() {
+  static constexpr auto k_names = std::to_array<std::string_view>({"none", "reinhard", "aces", "agx"});
+  return k_names;
+}
+
 std::string phase_name(PhaseFunction phase) {
   const auto index = static_cast<std::size_t>(phase);
   return index < phase_names().size() ? std::string(phase_names()[index]) : std::string();
@@ -163,11 +174,14 @@ void validate(const View& view) {
 
   if (view.lights.empty()) throw Error(ExitCode::bad_file, "view", "it has no light");
   check_fields(ExitCode::bad_file, "medium", view.medium);
+  check_fields(ExitCode::bad_file, "surroundings", view.surroundings);
   for (const Light& light : view.lights) validate(light, view);
 }
 
 void override_albedo(Geometry& geometry, glm::vec3 albedo) {
   geometry.materials = {{albedo}};
+  geometry.textures.clear();
+  geometry.texture_places.clear();
   std::fill(geometry.material_of_triangle.begin(), geometry.material_of_triangle.end(), 0u);
 }
 

@@ -19,9 +19,26 @@ namespace airlight::scene {
 /// Squared distances between points within this range of the origin stay far inside single precision.
 inline constexpr double k_largest_coordinate = 1e18;  // [m]
 
+/// How a model is shown.
+enum class Looks {
+  flat,      ///< one colour a material, and flat triangles: all that its shadows depend on
+  textured,  ///< with the textures of its base colours, and its shading normals
+};
+
+/// An image of base colours: sRGB and alpha of 8 bits each, row 0 at the top.
+struct TextureImage {
+  glm::ivec2 size{0};
+  std::vector<glm::u8vec4> texels;
+};
+
+/// What a texture shows beyond its sides.
+enum class TextureWrap : std::uint32_t { repeat = 0, clamp = 1, mirror = 2 };
+
 /// A Lambert surface.
 struct Material {
-  glm::vec3 albedo{0.8f};  ///< diffuse reflectance, linear RGB in [0, 1]
+  glm::vec3 albedo{0.8f};                     ///< diffuse reflectance, linear RGB in [0, 1]
+  std::optional<std::uint32_t> texture = {};  ///< of Geometry::textures: multiplies `albedo`
+  std::array<TextureWrap, 2> wrap = {};       ///< of the texture: left and right, above and below
 };
 
 /// Every surface of a scene as one triangle list in world space: right-handed, +Y up, metres.
@@ -33,6 +50,16 @@ struct Geometry {
   std::vector<glm::uvec3> triangles;                ///< indices into `positions`
   std::vector<std::uint32_t> material_of_triangle;  ///< indices into `materials`, one a triangle
   std::vector<Material> materials;
+
+  std::vector<TextureImage> textures;
+  /// Where each triangle's corners lie in its material's texture: (0, 0) is the image's top left corner, (1,
+  /// 1) its bottom right one. Empty where there are no textures.
+  std::vector<std::array<glm::vec2, 3>> texture_places;
+
+  /// Unit normals of each triangle's corners, world axes, by which its shading is interpolated; on the side
+  /// from which the corners go around counter-clockwise, for most of them. Empty where all triangles are
+  /// flat.
+  std::vector<std::array<glm::vec3, 3>> normals;
 };
 
 /// An axis-aligned box. Empty while `lower > upper`.
@@ -45,6 +72,9 @@ struct Box {
     upper = glm::max(upper, point);
   }
 };
+
+/// Texels of all textures.
+std::size_t texel_count(const Geometry& geometry);
 
 /// The box of all positions that a triangle uses.
 Box bounds(const Geometry& geometry);
@@ -172,6 +202,22 @@ struct Medium {
   bool operator==(const Medium&) const = default;
 };
 
+/// What surrounds a scene beside its lights, none of which shines through the medium into the eye as airlight
+/// does: it is seen through it.
+struct Surroundings {
+  /// Radiance that arrives at every surface from all sides, RGB [W/(m² sr)]: surfaces reflect their colour's
+  /// part.
+  glm::vec3 ambient{0.0f};
+  glm::vec3 background{0.0f};  ///< radiance of what lies beyond all surfaces, RGB [W/(m² sr)]
+  bool operator==(const Surroundings&) const = default;
+};
+
+/// How previews show radiance brighter than a display: quality/tone_map.h.
+enum class ToneMap { none, reinhard, aces, agx };
+
+/// The names that users know them by, in their order.
+std::span<const std::string_view> tone_map_names();
+
 /// What an importer dropped or could not represent: shown to the user, kept with the results.
 struct ImportReport {
   std::size_t degenerate_triangles = 0;  ///< zero-area triangles, dropped
@@ -186,7 +232,9 @@ struct Scene {
   std::vector<Light> lights;        ///< all of them are on
   std::vector<Light> other_lights;  ///< brought along and off, because others were chosen
   Medium medium;
+  Surroundings surroundings;
   std::optional<float> exposure;  ///< of PNG previews: linear radiance is multiplied by it; automatic without
+  ToneMap tone_map = ToneMap::none;  ///< of PNG previews
   ImportReport report;
 };
 
@@ -196,6 +244,7 @@ struct View {
   std::vector<Light> lights{Light{}};  ///< at least one; what they send adds up
   Medium medium;
   glm::ivec2 size{512, 512};  ///< pixels
+  Surroundings surroundings = {};
 };
 
 /// Checks what every method relies on.
@@ -206,7 +255,7 @@ struct View {
 /// the horizon.
 void validate(const View& view);
 
-/// Gives every triangle the same reflectance.
+/// Gives every triangle the same reflectance, and none a texture.
 void override_albedo(Geometry& geometry, glm::vec3 albedo);
 
 /// A camera that sees all of the geometry, from the front (+Z), slightly above.

@@ -83,8 +83,8 @@ struct Shot {
 };
 
 /// The scene that the shot shows, as it comes.
-Scene load_subject(const std::filesystem::path& file, const Shot& whole,
-                   std::optional<std::size_t> triangles) {
+Scene load_subject(const std::filesystem::path& file, const Shot& whole, std::optional<std::size_t> triangles,
+                   Looks looks) {
   Table& shot = *whole.root;
   const auto name = shot.text("scene");
   const auto own_triangles = shot.count("triangles");
@@ -103,7 +103,7 @@ Scene load_subject(const std::filesystem::path& file, const Shot& whole,
   }
   if (builtin) return builtin->make(triangles ? triangles : own_triangles);
   try {
-    return import_scene(file.parent_path() / *name);
+    return import_scene(file.parent_path() / *name, looks);
   } catch (const Error& error) {
     throw shot.error("scene", error.what());
   }
@@ -112,10 +112,10 @@ Scene load_subject(const std::filesystem::path& file, const Shot& whole,
 }  // namespace
 
 Scene load_shot(const std::filesystem::path& file, std::optional<std::size_t> triangles,
-                const LightTextureReader& read_light_texture) {
+                const LightTextureReader& read_light_texture, Looks looks) {
   const toml::table root = read_toml(file);
   const Shot shot(file, root, read_light_texture);
-  Scene scene = load_subject(file, shot, triangles);
+  Scene scene = load_subject(file, shot, triangles, looks);
   choose_all(*shot.choices, shot.lights, scene);
   try {
     if (scene.lights.empty())

@@ -14,6 +14,9 @@ namespace airlight::scene {
 ///     scene = "lamp.glb"         # a model, relative to the shot, or a built-in scene's name
 ///     triangles = 20000          # of a built-in scene whose count can be set
 ///     exposure = 4.0             # of PNG previews
+///     tone_map = "agx"           # the same
+///     ambient = [0.01, 0.01, 0.02]   # radiance from all sides that surfaces reflect [W/(m² sr)]
+///     background = [0.1, 0.1, 0.2]   # radiance beyond all surfaces [W/(m² sr)]
 ///     albedo = [0.5, 0.5, 0.5]   # of every surface; one number means grey
 ///     [camera]                   # name = "NAME" of one of the scene's, or eye and target [m]
 ///     eye = [0, 1, 4]
@@ -46,10 +49,11 @@ namespace airlight::scene {
 /// keys change the scene's only one.
 /// @param triangles asked for in place of the shot's own
 /// @param read_light_texture without it, a shot that names a texture is refused
-/// @returns the scene; its first camera, its lights, its medium and its exposure are the shot's
+/// @returns the scene; its first camera, its lights, its medium, its surroundings and its exposure are the
+/// shot's
 /// @throws Error (bad_file) with file and line, also for what `import_scene` refuses and for a view that
 /// `validate` refuses; (usage) where `triangles` cannot be
 Scene load_shot(const std::filesystem::path& file, std::optional<std::size_t> triangles = {},
-                const LightTextureReader& read_light_texture = {});
+                const LightTextureReader& read_light_texture = {}, Looks looks = Looks::flat);
 
 }  // namespace airlight::scene

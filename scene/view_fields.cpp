@@ -153,10 +153,12 @@ std::optional<FieldProblem> lack_of_mix(const Medium& medium) {
                       "choose hoffman-preetham"};
 }
 
+std::ptrdiff_t place_of_word(std::span<const std::string_view> words, const FieldValue& value) {
+  return std::find(words.begin(), words.end(), std::get<std::string>(value)) - words.begin();
+}
+
 void set_phase(Medium& medium, const FieldValue& value) {
-  const auto names = phase_names();
-  medium.phase = static_cast<PhaseFunction>(
-      std::find(names.begin(), names.end(), std::get<std::string>(value)) - names.begin());
+  medium.phase = static_cast<PhaseFunction>(place_of_word(phase_names(), value));
   if (!has_g(medium.phase)) medium.g = 0.0f;
 }
 
@@ -293,6 +295,20 @@ std::span<const Field<Medium>> fields() {
 }
 
 template <>
+std::span<const Field<Surroundings>> fields() {
+  static const std::array table = {
+      member_field<&Surroundings::ambient>(
+          {"", "ambient", colour, "R,G,B", "ambient",
+           "radiance from all sides that surfaces reflect, in lieu of light that is scattered more than once",
+           "W/(m2 sr)", "as an option also auto: fitted to scene, lights and medium", "0", k_intensity}),
+      member_field<&Surroundings::background>({"", "background", colour, "R,G,B", "background",
+                                               "radiance beyond all surfaces, seen through the medium",
+                                               "W/(m2 sr)", "", "0", k_intensity}),
+  };
+  return table;
+}
+
+template <>
 std::span<const Field<Scene>> fields() {
   static const std::array table = {
       Field<Scene>{{"", "albedo", colour, "R,G,B", "albedo", "reflectance of every surface, 0 to 1", "",
@@ -307,6 +323,15 @@ std::span<const Field<Scene>> fields() {
       member_field<&Scene::exposure>(
           {"", "exposure", number, "E", "exposure", "of PNG images: radiance is multiplied by it", "", "",
            "the scene's; for a file, the 95th percentile maps to 0.8", k_positive}),
+      Field<Scene>{{"", "tone-map", word, "NAME", "tone map",
+                    "of PNG images: how radiance brighter than a display is shown", "", "", "none", k_any,
+                    tone_map_names()},
+                   [](Scene& scene, const FieldValue& value) {
+                     scene.tone_map = static_cast<ToneMap>(place_of_word(tone_map_names(), value));
+                   },
+                   [](const Scene& scene) -> std::optional<FieldValue> {
+                     return std::string(tone_map_names()[static_cast<std::size_t>(scene.tone_map)]);
+                   }},
   };
   return table;
 }
@@ -379,6 +404,7 @@ std::span<const FieldInfo* const> every_field() {
     list.push_back(&light_choice());
     add(fields<Light>());
     add(fields<Medium>());
+    add(fields<Surroundings>());
     add(fields<Scene>());
     add(fields<View>());
     return list;

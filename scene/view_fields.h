@@ -74,7 +74,7 @@ struct FieldInfo {
   std::optional<FieldProblem> problem(const FieldValue& value) const;
 };
 
-/// A field of a Camera, Light, Medium, View or Scene.
+/// A field of a Camera, Light, Medium, Surroundings, View or Scene.
 template <typename Thing>
 struct Field : FieldInfo {
   void (*write)(Thing&, const FieldValue&);
@@ -106,6 +106,8 @@ std::span<const Field<Light>> fields();
 template <>
 std::span<const Field<Medium>> fields();
 template <>
+std::span<const Field<Surroundings>> fields();
+template <>
 std::span<const Field<Scene>> fields();
 template <>
 std::span<const Field<View>> fields();
@@ -125,8 +127,8 @@ void for_each_value(const Thing& thing, const Visit& visit) {
     if (const auto value = field.get(thing)) visit(field, *value);
 }
 
-/// The same for a view, but its lights: its camera, its medium and what is its own.
-/// @param visit (part, field, value); the part is "camera", "medium", or empty for the view's own
+/// The same for a view, but its lights: its camera, its medium, its surroundings and what is its own.
+/// @param visit (part, field, value); the part is "camera", "medium", or empty for the others
 template <typename Visit>
 void for_each_value_of_view(const View& view, const Visit& visit) {
   const auto visit_part = [&](std::string_view part, const auto& thing) {
@@ -135,6 +137,7 @@ void for_each_value_of_view(const View& view, const Visit& visit) {
   };
   visit_part("camera", view.camera);
   visit_part("medium", view.medium);
+  visit_part("", view.surroundings);
   visit_part("", view);
 }
 

@@ -257,6 +257,8 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{{"--phase", "hoffman-preetham", "--rayleigh-weight=-0.1"}, "--rayleigh-weight"},
         Misuse{{"--phase", "hoffman-preetham", "--rayleigh-weight", "nan"}, "--rayleigh-weight"},
         Misuse{{"--g", "0.5"}, "henyey-greenstein"}, Misuse{{"--albedo", "1.5"}, "--albedo"},
+        Misuse{{"--looks", "nice"}, "use flat or textured"}, Misuse{{"--tone-map", "nice"}, "--tone-map"},
+        Misuse{{"--ambient", "fitted"}, "--ambient"}, Misuse{{"--background=-1"}, "--background"},
         Misuse{{"--exposure", "0"}, "--exposure"}, Misuse{{"--exposure", "inf"}, "--exposure"},
         Misuse{{"--shadow-map", "0"}, "--shadow-map"},
         Misuse{{"--reference-samples", "128"}, "--reference-samples"},
@@ -585,6 +587,67 @@ TEST_F(Render, ExposureIsThatOfThePreviewAlone) {
   EXPECT_NE(read_text(file("image.png")), dark_preview);
   EXPECT_EQ(dark.channels, bright.channels);
   EXPECT_EQ(bright.metadata.at("airlight.exposure"), "10");
+}
+
+TEST_F(Render, ToneMapIsThatOfThePreviewAlone) {
+  const Image plain = render({"--exposure", "4"});
+  std::set<std::string> previews = {read_text(file("image.png"))};
+  for (const char* name : {"reinhard", "aces", "agx"}) {
+    const Image image = render({"--exposure", "4", "--tone-map", name});
+    EXPECT_EQ(image.channels, plain.channels);
+    EXPECT_EQ(image.metadata.at("airlight.tone-map"), name);
+    previews.insert(read_text(file("image.png")));
+  }
+  EXPECT_EQ(previews.size(), 4u);
+}
+
+TEST_F(Render, SurroundingsAddToTheImageAndNotToTheAirlight) {
+  const Image plain = render({});
+  const Image lit = render({"--ambient", "0.1,0.2,0.3"});
+  EXPECT_GT(mean(lit.channels.at("B")), mean(plain.channels.at("B")));
+  EXPECT_EQ(lit.channels.at("airlight.B"), plain.channels.at("airlight.B"));
+  EXPECT_EQ(lit.metadata.at("airlight.ambient"), "0.1,0.2,0.3");
+  const Image fitted = render({"--ambient", "auto"});
+  EXPECT_GT(mean(fitted.channels.at("R")), mean(plain.channels.at("R")));
+  EXPECT_EQ(render({"--ambient", fitted.metadata.at("airlight.ambient")}).channels, fitted.channels);
+
+  const Words sky = {"empty", "--fog-top", "20", "--background", "0,0,1"};
+  EXPECT_GT(mean(render(sky).channels.at("B")), mean(render({"empty", "--fog-top", "20"}).channels.at("B")));
+  std::ofstream(file("sky.toml"))
+      << "scene = 'empty'\nbackground = [0, 0, 1]\ntone_map = 'agx'\n[medium]\nfog_top = 20\n";
+  EXPECT_EQ(render({"sky.toml"}).channels, render(sky).channels);
+}
+
+TEST_F(Render, ShowsModelsTexturedUnlessToldOtherwise) {
+  std::ofstream(file("m.mtl")) << "newmtl m\nKd 1 1 1\nmap_Kd red.png\n";
+  std::ofstream(file("m.obj")) << "mtllib m.mtl\nv -9 -9 -3\nv 9 -9 -3\nv 0 9 -3\nvt 0 0\nvt 1 0\nvt 0 1\n"
+                                  "usemtl m\nf 1/1 2/2 3/3\n";
+  quality::write_png(file("red.png"), std::vector<glm::vec3>{{1, 0, 0}}, {1, 1}, 1.0f);
+  const auto view = [](Words words) {
+    words.insert(words.begin(), "m.obj");
+    words.insert(words.end(),
+                 {"--eye", "0,0,1", "--target", "0,0,-3", "--light-position", "0,2,1", "--intensity", "9"});
+    return words;
+  };
+  const Image textured = render(view({})), flat = render(view({"--looks", "flat"}));
+  EXPECT_EQ(textured.channels.at("R"), flat.channels.at("R"));
+  EXPECT_EQ(textured.channels.at("G"), textured.channels.at("airlight.G"));
+  EXPECT_NE(flat.channels.at("G"), flat.channels.at("airlight.G"));
+  for (const char* channel : {"airlight.R", "airlight.G", "surface.Y", "distance.Y"})
+    EXPECT_EQ(textured.channels.at(channel), flat.channels.at(channel)) << channel;
+
+  fs::remove(file("red.png"));
+  const auto words = [&](const char* command, Words more) {
+    more.insert(more.begin(), command);
+    more.insert(more.end(), {"-o", std::string(command) == "render" ? "x.exr" : "x"});
+    return more;
+  };
+  const Result missing = small(words("render", view({})));
+  expect_one_line_error(missing, 3);
+  EXPECT_THAT(missing.err, HasSubstr("material 'm', base-colour texture: red.png: there is no such file"));
+  // compare asks for what methods compute alone.
+  EXPECT_EQ(small(words("compare", view({"--volume", "vsv", "--frames", "1"}))).exit_code, 0);
+  expect_one_line_error(small(words("compare", view({"--volume", "vsv", "--looks", "textured"}))), 3);
 }
 
 /// A light texture, green towards +X and red towards −X.

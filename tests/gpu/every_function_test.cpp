@@ -184,6 +184,18 @@ constexpr Function k_functions[] = {
     {"slice_of_depth", 1, 2e-6, 1e-4},                 // log: 2⁻²¹ near 1; over ln 4 of 64
     {"place_in_froxel", 3, 0, 1e-5, Scale::one, 20},   // of up to 60
     {"place_in_slices", 3, 2e-6, 1e-4},                // pixels of hundreds; slices as above
+    {"fold repeat", 1, 0, 1e-6, Scale::one, 20},       // of up to 10
+    {"fold clamp", 1, 0, 1e-6},
+    {"fold mirror", 1, 0, 1e-6, Scale::one, 20},
+    {"texture_blend.from", 3, 0, 5e-5, Scale::one, 20},  // up to 40 texels; texel and weight together
+    {"texture_blend.to", 3, 0, 5e-5, Scale::one, 20},
+    {"texture_probes.count", 1, 0, 0, Scale::one, 20},
+    {"texture_probes.level", 1, 0, 1e-5, Scale::one, 20},  // log2: 2⁻²¹ near 1
+    {"texture_probes.apart", 1, 2 * k_single, 0, Scale::one, 20},
+    {"store_place", 3, 0, 0},
+    {"last_level", 1, 0, 0},
+    {"of_octahedron", 3, 0, 1e-4},  // a step of 2/65534, and what it turns
+    {"weights_per_turn", 3, 2e-5, 2e-8},
 };
 
 std::vector<Inputs> random_inputs(int count) {

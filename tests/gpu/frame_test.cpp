@@ -343,6 +343,80 @@ void expect_shaded_floor(const scene::Light& light, const std::function<double(g
   EXPECT_GT(seen, 100);
 }
 
+/// A floor under a lamp that gives no light.
+FrameImages floor_in_surroundings(const scene::Surroundings& surroundings, const scene::Medium& medium,
+                                  const std::function<void(glm::dvec3 ray, glm::vec3 radiance)>& look) {
+  scene::Geometry floor;
+  tests::add_quad(floor, {-50, 0, -50}, {0, 0, 100}, {100, 0, 0});
+  floor.materials[0].albedo = {0.8f, 0.5f, 0.2f};
+  scene::View view;
+  view.camera.eye = {0.5, 2, 3};
+  view.camera.target = {0, 2, 0};
+  view.lights = {scene::point_light("", {1, 1.5, -1}, glm::vec3(0))};
+  view.medium = medium;
+  view.size = {16, 16};
+  view.surroundings = surroundings;
+  Frame frame(gpu_context(), floor, 64);
+  NoShadow no_shadow;
+  NoAirlight no_airlight;
+  FrameImages images = render(frame, view, no_shadow, no_airlight);
+  const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
+  for (std::size_t i = 0; i < images.radiance.size(); ++i)
+    look(tests::pixel_ray(camera, view.size, i), images.radiance[i]);
+  return images;
+}
+
+TEST(Frame, SurfacesReflectWhatSurroundsThemAndFogLiesBefore) {
+  const scene::Medium medium{.sigma_s = {0.1f, 0.2f, 0.3f}, .sigma_a = {0.05f, 0.0f, 0.1f}};
+  int seen = 0;
+  floor_in_surroundings({.ambient = {1, 2, 3}}, medium, [&](glm::dvec3 ray, glm::vec3 radiance) {
+    if (ray.y >= 0.0) {
+      EXPECT_EQ(radiance, glm::vec3(0));
+    }
+    if (ray.y > -0.06) return;  // beyond the floor's end
+    ++seen;
+    const glm::dvec3 expected = glm::dvec3(1, 2, 3) * glm::dvec3(0.8, 0.5, 0.2) *
+                                glm::exp(-glm::dvec3(0.15, 0.2, 0.4) * (2.0 / -ray.y));
+    // Single precision, the exponential's error growing with its exponent.
+    for (int i = 0; i < 3; ++i)
+      EXPECT_NEAR(static_cast<double>(radiance[i]), expected[i], 1e-5 * expected[i]);
+  });
+  EXPECT_GT(seen, 50);
+}
+
+TEST(Frame, TheBackgroundIsSeenThroughTheFogsLayer) {
+  const scene::Medium medium{.sigma_s = {0.1f, 0.2f, 0.3f}, .top = 5.0};
+  int seen = 0;
+  floor_in_surroundings({.background = {1, 2, 3}}, medium, [&](glm::dvec3 ray, glm::vec3 radiance) {
+    if (ray.y < -0.06) {
+      EXPECT_EQ(radiance, glm::vec3(0));
+    }
+    if (ray.y < 0.0) return;
+    ++seen;
+    const glm::dvec3 expected = glm::dvec3(1, 2, 3) * glm::exp(-glm::dvec3(0.1, 0.2, 0.3) * (3.0 / ray.y));
+    // The same; and rays that all but keep their height.
+    for (int i = 0; i < 3; ++i)
+      EXPECT_NEAR(static_cast<double>(radiance[i]), expected[i], 1e-4 * expected[i] + 1e-30);
+  });
+  EXPECT_GT(seen, 50);
+}
+
+TEST(Frame, FogWithoutAnEndHidesTheBackgroundAndNoFogDoesNot) {
+  floor_in_surroundings({.background = {1, 2, 3}}, {.sigma_s = {0.1f, 0.0f, 0.1f}},
+                        [&](glm::dvec3 ray, glm::vec3 radiance) {
+                          if (ray.y >= 0.0) {
+                            EXPECT_EQ(radiance, glm::vec3(0, 2, 0));
+                          }
+                        });
+}
+
+TEST(Frame, SurroundingsAreNoAirlight) {
+  const auto nothing = [](glm::dvec3, glm::vec3) {};
+  for (const glm::vec3& airlight :
+       floor_in_surroundings({.ambient = {1, 2, 3}, .background = {1, 2, 3}}, {}, nothing).airlight)
+    EXPECT_EQ(airlight, glm::vec3(0));
+}
+
 const scene::Light k_lamp = scene::point_light("", {1, 1.5, -1}, {3, 2, 1});
 
 TEST(Frame, ShadesALambertSurfaceByItsClosedForm) {

@@ -1,10 +1,13 @@
 // Calls every function that the shaders share with C++, on one set of inputs: on the GPU and on the CPU.
 #ifndef AIRLIGHT_EVERY_FUNCTION_GLSL
 #define AIRLIGHT_EVERY_FUNCTION_GLSL
+#include "frame/footprint.glsl"
 #include "frame/light_texture.glsl"
+#include "frame/octahedron.glsl"
 #include "frame/shadow_cube.glsl"
 #include "frame/shadow_plane.glsl"
 #include "frame/camera.glsl"
+#include "frame/texture_filter.glsl"
 #include "epipolar/conservative.glsl"
 #include "media/froxels.glsl"
 #include "media/march_steps.glsl"
@@ -14,7 +17,7 @@
 #include "media/sun.glsl"
 #include "media/table_place.glsl"
 
-CONST uint k_outputs = 195u;
+CONST uint k_outputs = 217u;
 
 struct Inputs {
   vec4 a;  // axis, D
@@ -337,6 +340,24 @@ FUNCTION void call_every_function(IN(Inputs) inputs) {
   put(slice_of_depth(0.3f * float(alpha) * t, 64.0f, t));
   put(place_in_froxel(uint(20.0f * float(alpha))));
   put(place_in_slices(camera, t * view_ray(camera, vec2(100.0f * float(alpha), 60.0f * float(phi))), 64.0f, 3.0f * t));
+
+  // Looks.
+  put(fold(3.0f * float(theta), k_wrap_repeat));
+  put(fold(3.0f * float(theta), k_wrap_clamp));
+  put(fold(3.0f * float(theta), k_wrap_mirror));
+  blend = texture_blend(vec2(3.0f * float(theta), float(alpha)), ivec2(40, 20), uvec2(k_wrap_repeat, k_wrap_mirror));
+  put(vec3(blend.from.x, blend.from.y, 0.0f) + vec3(blend.weight.x, blend.weight.y, 0.0f));
+  put(vec3(blend.to.x, blend.to.y, 0.0f) + vec3(blend.weight.x, blend.weight.y, 0.0f));
+  TextureProbes probes = texture_probes(vec2(ray.x, ray.y), vec2(0.1f * l.x, l.y), ivec2(40, 20));
+  put(float(probes.count));
+  put(probes.level);
+  put(probes.apart.x);
+  TextureLevel level = texture_level(7u, ivec2(40, 20), int(float(alpha)));
+  put(vec3(store_place(level.first, level.size.x, ivec2(3, 2))));
+  put(float(last_level(level.size)));
+  put(of_octahedron(octahedron_of(ray)));
+  vec3 ab = 0.5f * t * space.u;
+  put(weights_per_turn(l, 1e-3f * space.f, t * l, t * l + ab, t * l + 0.3f * t * space.f + 0.1f * ab));
 }
 
 #endif

@@ -18,11 +18,13 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/error.h"
-#include "support/errors.h"
+#include "support/models.h"
 #include "support/shared.h"
 
 namespace airlight::scene {
 namespace {
+
+using namespace tests;
 
 using nlohmann::json;
 using testing::Contains;
@@ -34,155 +36,10 @@ constexpr float k_nan = std::numeric_limits<float>::quiet_NaN();
 /// Positions and intensities of the importers end in single precision.
 constexpr double k_single = 1e-6;
 
-// ---- Files ----
-
-/// A folder of one test's files, which goes away with the test.
-class Import : public testing::Test {
- protected:
-  Import() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              ("airlight_" + std::string(test->test_suite_name()) + "_" + test->name());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  ~Import() override { std::filesystem::remove_all(folder_); }
-
-  std::filesystem::path write(const std::string& name, std::string_view content) {
-    std::ofstream(folder_ / name, std::ios::binary) << content;
-    return folder_ / name;
-  }
-  Scene load(const std::string& name, std::string_view content) { return import_scene(write(name, content)); }
-  Scene load(const json& document) { return load("scene.gltf", document.dump()); }
-
-  /// Expects an error of one line that names the file and holds the text.
-  void expect_error(const std::filesystem::path& file, const std::string& text) {
-    tests::expect_error(ExitCode::bad_file, {text, file.filename().string()}, [&] { import_scene(file); });
-  }
-  void expect_error(const std::string& name, std::string_view content, const std::string& text) {
-    expect_error(write(name, content), text);
-  }
-  void expect_error(const json& document, const std::string& text) {
-    expect_error("scene.gltf", document.dump(), text);
-  }
-
-  std::filesystem::path folder_;
-};
-
+class Import : public tests::ImportFolder {};
 class ImportGltf : public Import {};
 class ImportObj : public Import {};
 class ImportPly : public Import {};
-
-// ---- glTF documents ----
-
-template <typename T>
-std::string bytes_of(const std::vector<T>& values) {
-  std::string bytes(values.size() * sizeof(T), '\0');
-  std::memcpy(bytes.data(), values.data(), bytes.size());
-  return bytes;
-}
-
-std::string data_uri(std::string_view bytes) {
-  constexpr std::string_view k_digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string uri = "data:application/octet-stream;base64,";
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned word = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      word = word << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      uri += i + k > bytes.size() ? '=' : k_digits[word >> (18 - 6 * k) & 63];
-  }
-  return uri;
-}
-
-/// Adds bytes as a buffer of their own with one view. @returns the view's index
-std::size_t add_view(json& document, std::string_view bytes) {
-  document["buffers"].push_back({{"byteLength", bytes.size()}, {"uri", data_uri(bytes)}});
-  document["bufferViews"].push_back(
-      {{"buffer", document["buffers"].size() - 1}, {"byteLength", bytes.size()}});
-  return document["bufferViews"].size() - 1;
-}
-
-/// Adds an accessor of tightly packed values. @returns its index
-template <typename T>
-std::size_t add_accessor(json& document, const std::vector<T>& values, int component_type,
-                         const std::string& type) {
-  const std::size_t components = type == "VEC3" ? 3 : 1;
-  const std::size_t view = add_view(document, bytes_of(values));
-  document["accessors"].push_back({{"bufferView", view},
-                                   {"componentType", component_type},
-                                   {"count", values.size() / components},
-                                   {"type", type}});
-  return document["accessors"].size() - 1;
-}
-
-constexpr int k_u8 = 5121, k_u16 = 5123, k_u32 = 5125, k_float = 5126;
-
-/// The corners of a unit square, counter-clockwise.
-const std::vector<float> k_square = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
-
-/// One triangle, (0,0,0) (1,0,0) (1,1,0), without a material: accessor 0 holds the square's four positions,
-/// accessor 1 the indices.
-json triangle() {
-  json document = {{"asset", {{"version", "2.0"}}},
-                   {"scene", 0},
-                   {"scenes", {{{"nodes", {0}}}}},
-                   {"nodes", {{{"mesh", 0}}}},
-                   {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}}}}}}};
-  add_accessor(document, k_square, k_float, "VEC3");
-  add_accessor(document, std::vector<std::uint16_t>{0, 1, 2}, k_u16, "SCALAR");
-  return document;
-}
-
-json& primitive(json& document) {
-  return document["meshes"][0]["primitives"][0];
-}
-
-/// The triangle, with a light or camera or whatever else hung on a second node.
-json with_node(json node, json document = triangle()) {
-  document["nodes"].push_back(std::move(node));
-  document["scenes"][0]["nodes"].push_back(document["nodes"].size() - 1);
-  return document;
-}
-
-json with_light(json light, json node = json::object()) {
-  node["extensions"]["KHR_lights_punctual"]["light"] = 0;
-  json document = with_node(std::move(node));
-  document["extensionsUsed"] = {"KHR_lights_punctual"};
-  document["extensions"]["KHR_lights_punctual"]["lights"] = json::array({std::move(light)});
-  return document;
-}
-
-json with_camera(json camera, json node = json::object()) {
-  node["camera"] = 0;
-  json document = with_node(std::move(node));
-  document["cameras"] = json::array({std::move(camera)});
-  return document;
-}
-
-const json k_perspective = {{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}};
-
-std::string little_endian(std::uint32_t word) {
-  return bytes_of(std::vector<std::uint32_t>{word});
-}
-
-std::string glb(const json& document, std::string binary) {
-  std::string text = document.dump();
-  text.resize((text.size() + 3) / 4 * 4, ' ');
-  binary.resize((binary.size() + 3) / 4 * 4, '\0');
-  const auto size = [](const std::string& s) { return little_endian(static_cast<std::uint32_t>(s.size())); };
-  std::string chunks = size(text) + "JSON" + text;
-  if (!binary.empty()) chunks += size(binary) + std::string("BIN\0", 4) + binary;
-  return "glTF" + little_endian(2) + little_endian(static_cast<std::uint32_t>(chunks.size() + 12)) + chunks;
-}
-
-/// The triangle in a .glb, its positions in the binary chunk.
-std::string triangle_glb() {
-  json document = triangle();
-  const std::string positions = bytes_of(k_square);
-  document["buffers"][0].erase("uri");
-  return glb(document, positions);
-}
 
 std::vector<glm::vec3> corners(const Scene& scene, std::size_t triangle) {
   const glm::uvec3 t = scene.geometry.triangles.at(triangle);

@@ -128,7 +128,7 @@ TEST_F(Shot, TrianglesAskedForOverrideItsOwn) {
 
 TEST_F(Shot, RefusesKeysThatItDoesNotKnow) {
   expect_error("scene = 'cornell'\nmood = 1\n",
-               "line 2: there is no key 'mood'; use albedo, camera, exposure");
+               "line 2: there is no key 'mood'; use albedo, ambient, background");
   expect_error("scene = 'cornell'\n[camera]\nfov = 40\nroll = 1\n",
                "line 4: there is no key 'roll' in [camera]");
   expect_error("scene = 'cornell'\n[light]\nlight_position = 1\n",

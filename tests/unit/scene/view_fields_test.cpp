@@ -74,7 +74,7 @@ std::string text_for(const FieldInfo& field) {
     case FieldKind::colour:
       return "0.1,0.33333334,1e-09";
     case FieldKind::word:
-      return "henyey-greenstein";
+      return std::string(field.words[field.words.size() - 2]);
     case FieldKind::file:
       return "a lantern.exr";
     case FieldKind::size:
@@ -85,7 +85,7 @@ std::string text_for(const FieldInfo& field) {
 
 template <typename Thing>
 class FieldsOf : public testing::Test {};
-using Things = testing::Types<Camera, Light, Medium, Scene, View>;
+using Things = testing::Types<Camera, Light, Medium, Surroundings, Scene, View>;
 TYPED_TEST_SUITE(FieldsOf, Things);
 
 TYPED_TEST(FieldsOf, ReadBackTheTextThatTheyWereSetTo) {
