@@ -59,7 +59,8 @@ bool is_shot(const std::filesystem::path& file) {
 /// What the model looks like. Where methods are compared their times are, too: unless asked otherwise,
 /// nothing is drawn there that none of them computes.
 scene::Looks looks(const Options& options) {
-  const std::string text = options.get("looks").value_or(options.command == "render" ? "textured" : "flat");
+  const std::string text = options.get("looks").value_or(
+      options.command == "render" || options.command == "view" ? "textured" : "flat");
   if (text == "flat") return scene::Looks::flat;
   if (text == "textured") return scene::Looks::textured;
   throw usage("--looks", fmt::format("'{}' is unknown", text), "use flat or textured");
@@ -139,7 +140,7 @@ std::span<const OptionLine> common_options() {
         {"looks", "flat|textured",
          "what a model's surfaces look like: one colour a material and flat "
          "triangles, or the textures of base colours and shading normals; shadows "
-         "and airlight are the same (default: textured in render, else flat)"}};
+         "and airlight are the same (default: textured in render and view, else flat)"}};
     for (const scene::FieldInfo* field : scene::every_field())
       lines.push_back({field->name, field->placeholder, field->help()});
     lines.push_back(
@@ -175,7 +176,10 @@ Subject make_subject(const Options& options) {
   subject.view = {subject.scene.cameras[0], subject.scene.lights, subject.scene.medium};
   choose(choices.of_view, subject.view);
   subject.view.surroundings = subject.scene.surroundings;
-  if (options.get("ambient") == std::string(k_fitted))
+  // A window is to be looked at: there it is fitted where nothing says what it is.
+  const bool is_for_looks = options.command == "view" && !options.get("ambient") &&
+                            subject.view.surroundings.ambient == glm::vec3(0.0f);
+  if (is_for_looks || options.get("ambient") == std::string(k_fitted))
     subject.view.surroundings.ambient =
         scene::fitted_ambient(subject.scene.geometry, subject.view.lights, subject.view.medium);
   subject.exposure = subject.scene.exposure;

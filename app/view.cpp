@@ -38,7 +38,8 @@ void view(const Options& options) {
       {.size = subject.view.size,
        .bytes_per_pixel = k_bytes_of_compare + k_bytes_of_compared_light * (subject.view.lights.size() - 1),
        .shadow_map = shadow_map,
-       .triangles = subject.scene.geometry.triangles.size()});
+       .triangles = subject.scene.geometry.triangles.size(),
+       .looks = bytes_of_looks(subject.scene.geometry)});
 
   viewer::Window window(fmt::format("{} - Airlight", options.scene), subject.view.size);
   gpu::Context context = gpu::Context::adopt_current();

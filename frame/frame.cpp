@@ -106,9 +106,7 @@ Frame::Frame(gpu::Context& context, const scene::Geometry& geometry, int shadow_
       resources_(context, geometry, shadow_map_size, std::move(scene)),
       camera_block_(sizeof(shaders::CameraBlock)),
       light_block_(sizeof(shaders::LightBlock)),
-      medium_block_(sizeof(shaders::MediumBlock)) {
-  if (Looks::are_in(geometry)) looks_.emplace(context, geometry, resources_.scene().order());
-}
+      medium_block_(sizeof(shaders::MediumBlock)) {}
 
 void Frame::require_images(const scene::View& view, gpu::Format visibility_format) {
   if (!gbuffer_ || radiance_.size() != view.size) {
@@ -156,7 +154,7 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
     write_block(camera_block_, camera_block(camera, view.size, near), shaders::k_camera_block);
     write_block(medium_block_, medium_block(view.medium, camera.eye), shaders::k_medium_block);
     gbuffer_->draw(scene, camera, scene.triangles_at(camera.eye, distance));
-    if (looks_) looks_->draw(scene, gbuffer_->triangles());
+    if (scene.looks()) scene.looks()->draw(scene, gbuffer_->triangles(), look_images_);
   });
 
   const ViewRays rays = airlight.rays();
@@ -231,13 +229,14 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
 }
 
 void Frame::add_surroundings(const scene::Surroundings& surroundings) {
-  const bool has_textures = looks_ && looks_->has_textures();
+  const Looks* looks = resources_.scene().looks();
+  const bool has_textures = looks && looks->has_textures();
   if (!surroundings_)
     surroundings_.emplace(k_surroundings_frag, std::array{gpu::Constant(0, has_textures)}, gpu::Blend::add);
   resources_.scene().bind_samplers();
   gbuffer_->triangles().bind_sampler(shaders::k_triangle_unit);
   gbuffer_->surfaces().bind_sampler(shaders::k_surface_unit);
-  if (has_textures) looks_->base_colours().bind_sampler(shaders::k_base_colour_unit);
+  if (has_textures) look_images_.base_colours.bind_sampler(shaders::k_base_colour_unit);
   surroundings_->pipeline().set(0, surroundings.ambient);
   surroundings_->pipeline().set(1, surroundings.background);
   surroundings_->run({radiance_});
@@ -246,7 +245,8 @@ void Frame::add_surroundings(const scene::Surroundings& surroundings) {
 void Frame::composite(std::size_t light, bool adds) {
   const gpu::Texture* light_texture = resources_.light_texture();
   const bool is_textured = light_texture != nullptr;
-  const bool has_textures = looks_ && looks_->has_textures(), has_normals = looks_ && looks_->has_normals();
+  const Looks* looks = resources_.scene().looks();
+  const bool has_textures = looks && looks->has_textures(), has_normals = looks && looks->has_normals();
   auto& pass = composite_[{is_textured, adds}];
   if (!pass) {
     pass.emplace(k_composite_frag,
@@ -260,8 +260,8 @@ void Frame::composite(std::size_t light, bool adds) {
   visibility_[light].bind_sampler(shaders::k_visibility_unit);
   airlight_of(light).bind_sampler(shaders::k_airlight_unit);
   if (light_texture) light_texture->bind_sampler(shaders::k_light_texture_unit);
-  if (has_textures) looks_->base_colours().bind_sampler(shaders::k_base_colour_unit);
-  if (has_normals) looks_->shading_normals().bind_sampler(shaders::k_shading_normal_unit);
+  if (has_textures) look_images_.base_colours.bind_sampler(shaders::k_base_colour_unit);
+  if (has_normals) look_images_.shading_normals.bind_sampler(shaders::k_shading_normal_unit);
   if (airlight_of_light_.empty()) {
     pass->run({radiance_});
   } else {
@@ -303,7 +303,7 @@ FrameImages Frame::take() {
   // What frees the most goes first.
   images.distance = read_distance(gbuffer_->surfaces());
   gbuffer_.reset();
-  if (looks_) looks_->free_images();
+  look_images_ = {};
   coarse_image_ = nullptr;
   coarse_images_.clear();
   samples_ = nullptr;

@@ -11,7 +11,6 @@
 #include "frame/coarse_image.h"
 #include "frame/epipolar_samples.h"
 #include "frame/gbuffer.h"
-#include "frame/looks.h"
 #include "frame/methods.h"
 #include "frame/resources.h"
 #include "frame/screen_pass.h"
@@ -89,7 +88,7 @@ class Frame {
   std::map<std::pair<bool, bool>, std::optional<ScreenPass>>
       composite_;  ///< by: the light is textured, it adds to others
   std::optional<ScreenPass> surroundings_;
-  std::optional<Looks> looks_;  ///< where the scene has any
+  LookImages look_images_;  ///< where the scene has looks
 
   std::optional<GBuffer> gbuffer_;
   std::map<Where, CoarseImage> coarse_images_;  ///< each stays, with its program, when methods take turns

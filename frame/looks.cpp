@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "frame/blocks.h"
+#include "frame/scene_buffers.h"
 #include "frame/texture_levels.h"
 #include "scene/error.h"
 
@@ -107,11 +108,9 @@ Looks::Looks(const gpu::Context& context, const scene::Geometry& geometry,
   }
 }
 
-void Looks::draw(const SceneBuffers& scene, const gpu::Texture& triangles) {
-  if (base_colours_.size() != triangles.size()) {
-    base_colours_ = gpu::Texture(gpu::Format::rgba16f, triangles.size());
-    shading_normals_ = gpu::Texture(gpu::Format::rgba16f, triangles.size());
-  }
+void Looks::draw(const SceneBuffers& scene, const gpu::Texture& triangles, LookImages& images) const {
+  for (gpu::Texture* image : {&images.base_colours, &images.shading_normals})
+    if (image->size() != triangles.size()) *image = gpu::Texture(gpu::Format::rgba16f, triangles.size());
   scene.bind_samplers();
   triangles.bind_sampler(shaders::k_triangle_unit);
   if (has_textures_) {
@@ -120,12 +119,12 @@ void Looks::draw(const SceneBuffers& scene, const gpu::Texture& triangles) {
     texture_place_texels_.bind_sampler(shaders::k_texture_places_unit);
   }
   if (has_normals_) normal_texels_.bind_sampler(shaders::k_normals_unit);
-  pass_.run({base_colours_, shading_normals_});
+  pass_.run({images.base_colours, images.shading_normals});
 }
 
-void Looks::free_images() {
-  base_colours_ = {};
-  shading_normals_ = {};
+std::int64_t Looks::bytes() const {
+  return (has_textures_ ? texels_.bytes() : 0) + material_textures_.bytes() + texture_places_.bytes() +
+         normals_.bytes();
 }
 
 }  // namespace airlight::frame

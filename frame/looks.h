@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <span>
 
-#include "frame/scene_buffers.h"
 #include "frame/screen_pass.h"
 #include "gpu/buffer.h"
 #include "gpu/context.h"
@@ -11,6 +10,17 @@
 #include "scene/scene.h"
 
 namespace airlight::frame {
+
+class SceneBuffers;
+
+/// What the surfaces of a frame look like.
+struct LookImages {
+  /// rgba16f: base colours, linear, where the scene has textures.
+  gpu::Texture base_colours;
+  /// rgba16f: unit normals, world axes, where it has normals; turned to the side of the triangle that is
+  /// seen.
+  gpu::Texture shading_normals;
+};
 
 /// What a scene's surfaces look like where that is more than one colour a material and flat triangles:
 /// textures, and shading normals.
@@ -29,18 +39,11 @@ class Looks {
   bool has_textures() const { return has_textures_; }
   bool has_normals() const { return has_normals_; }
 
-  /// The surfaces of a frame, into the images below. The camera's block is bound.
-  /// @param triangles as of GBuffer
-  void draw(const SceneBuffers& scene, const gpu::Texture& triangles);
+  /// The surfaces of a frame, into images that get its size. The camera's block is bound.
+  /// @param scene whose looks these are @param triangles as of GBuffer
+  void draw(const SceneBuffers& scene, const gpu::Texture& triangles, LookImages& images) const;
 
-  /// rgba16f: base colours, linear, where the scene has textures.
-  const gpu::Texture& base_colours() const { return base_colours_; }
-  /// rgba16f: unit normals, world axes, where it has normals; turned to the side of the triangle that is
-  /// seen.
-  const gpu::Texture& shading_normals() const { return shading_normals_; }
-
-  /// Frees the images.
-  void free_images();
+  std::int64_t bytes() const;
 
  private:
   gpu::Texture texels_;  ///< of all textures: shaders/frame/texture_filter.glsl
@@ -48,7 +51,6 @@ class Looks {
   gpu::Buffer material_textures_, texture_places_, normals_;
   gpu::TexelView material_texture_texels_, texture_place_texels_, normal_texels_;
   ScreenPass pass_;
-  gpu::Texture base_colours_, shading_normals_;
 };
 
 }  // namespace airlight::frame

@@ -50,6 +50,8 @@ SceneBuffers::SceneBuffers(const gpu::Context& context, const scene::Geometry& g
   albedo_texels_ = {context.limits(), albedos_, gpu::Format::rgba32f, "the model's materials"};
   material_texels_ = {context.limits(), material_of_triangle_, gpu::Format::r32ui, "the model's triangles"};
 
+  if (Looks::are_in(geometry)) looks_.emplace(context, geometry, clusters_.order);
+
   GLuint name = 0;
   glCreateVertexArrays(1, &name);
   vertex_array_ = gpu::Handle<gpu::delete_vertex_array>(name);
@@ -124,7 +126,8 @@ std::vector<std::uint32_t> SceneBuffers::triangles_at(glm::dvec3 apex, double ey
 }
 
 std::int64_t SceneBuffers::bytes() const {
-  return positions_.bytes() + triangles_.bytes() + albedos_.bytes() + material_of_triangle_.bytes();
+  return positions_.bytes() + triangles_.bytes() + albedos_.bytes() + material_of_triangle_.bytes() +
+         (looks_ ? looks_->bytes() : 0);
 }
 
 }  // namespace airlight::frame

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "frame/clusters.h"
+#include "frame/looks.h"
 #include "gpu/buffer.h"
 #include "gpu/context.h"
 #include "gpu/texture.h"
@@ -35,6 +37,9 @@ class SceneBuffers {
   void draw(const std::function<bool(const scene::Box&)>& may_touch,
             std::span<const std::uint32_t> left_out = {}) const;
 
+  /// Of a model that has any; else nullptr.
+  const Looks* looks() const { return looks_ ? &*looks_ : nullptr; }
+
   /// World space.
   const scene::Box& box() const { return box_; }
 
@@ -64,6 +69,7 @@ class SceneBuffers {
   gpu::Buffer positions_, triangles_, albedos_, material_of_triangle_, first_triangles_;
   gpu::TexelView position_texels_, triangle_texels_, albedo_texels_, material_texels_;
   gpu::Handle<gpu::delete_vertex_array> vertex_array_;
+  std::optional<Looks> looks_;
 };
 
 }  // namespace airlight::frame

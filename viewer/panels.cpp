@@ -421,6 +421,16 @@ void Viewer::picture_panel() {
     ImGui::SliderFloat("exposure", &*shown_.exposure, 1e-3f, 1e3f, "%.4g", ImGuiSliderFlags_Logarithmic);
     gui_.note("exposure");
   }
+  const auto names = scene::tone_map_names();
+  if (ImGui::BeginCombo("tone map", std::string(names[static_cast<std::size_t>(shown_.tone_map)]).c_str())) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (ImGui::Selectable(std::string(names[i]).c_str())) shown_.tone_map = static_cast<scene::ToneMap>(i);
+      gui_.note(fmt::format("tone-map={}", names[i]));
+    }
+    ImGui::EndCombo();
+  }
+  gui_.note("tone-map");
+  edit_fields(shown_.view.surroundings, "surroundings-");
   if (ImGui::Button("copy as command")) {
     ImGui::SetClipboardText(command().c_str());
     copied_ = command();

@@ -23,6 +23,10 @@ std::vector<std::pair<const scene::FieldInfo*, std::string>> values_of(const sce
   return values;
 }
 
+std::string tone_map_name(const Shown& shown) {
+  return std::string(scene::tone_map_names()[static_cast<std::size_t>(shown.tone_map)]);
+}
+
 /// A value as TOML has it: words in quotes, numbers in brackets where there are several.
 std::string toml_of(const scene::FieldInfo& field, const std::string& text) {
   if (field.kind == scene::FieldKind::word || field.kind == scene::FieldKind::file) {
@@ -62,6 +66,7 @@ std::string command_of(const SceneName& scene, const Shown& shown, const std::st
   };
   if (scene.triangles) add("triangles", *scene.triangles);
   if (scene.albedo) add("albedo", *scene.albedo);
+  if (scene.looks) add("looks", *scene.looks);
   scene::for_each_value_of_view(
       shown.view, [&](std::string_view, const scene::FieldInfo& field, const scene::FieldValue& value) {
         add(field.name, scene::text_of(value));
@@ -69,6 +74,7 @@ std::string command_of(const SceneName& scene, const Shown& shown, const std::st
   for (const scene::Light& light : shown.view.lights)
     for (const auto& [field, text] : values_of(light)) add(field->name, text);
   if (shown.exposure) add("exposure", fmt::format("{}", *shown.exposure));
+  add("tone-map", tone_map_name(shown));
   if (quality::is_read("shadow-map", {&shown.volume, 1}, {&shown.surface, 1}))
     add("shadow-map", fmt::format("{}", shown.shadow_map));
   add("volume", spec_of(shown.volume));
@@ -91,14 +97,19 @@ std::string shot_of(const SceneName& scene, const Shown& shown) {
   if (shown.exposure) shot += fmt::format("exposure = {}\n", *shown.exposure);
   if (scene.albedo)
     shot += fmt::format("albedo = {}\n", toml_of(scene::field<scene::Scene>("albedo"), *scene.albedo));
+  shot += fmt::format("tone_map = {}\n", quoted(tone_map_name(shown)));
+  // What belongs to no table stands before all of them.
+  std::string tables;
   std::string_view table;
   scene::for_each_value_of_view(
       shown.view, [&](std::string_view part, const scene::FieldInfo& field, const scene::FieldValue& value) {
-        if (part.empty()) return;  // an image's size is no part of a shot
-        if (part != table) shot += fmt::format("\n[{}]\n", part);
+        if (field.kind == scene::FieldKind::size) return;  // an image's size is no part of a shot
+        if (!part.empty() && part != table) tables += fmt::format("\n[{}]\n", part);
         table = part;
-        shot += fmt::format("{} = {}\n", field.key(), toml_of(field, scene::text_of(value)));
+        (part.empty() ? shot : tables) +=
+            fmt::format("{} = {}\n", field.key(), toml_of(field, scene::text_of(value)));
       });
+  shot += tables;
   for (const scene::Light& light : shown.view.lights) {
     shot += shown.view.lights.size() > 1 ? "\n[[light]]\n"
             : scene::is_sun(light)       ? "\n[sun]\n"

@@ -15,6 +15,7 @@ struct Shown {
   quality::SurfaceChoice surface;
   int shadow_map = 2048;          ///< side of a face [texels]
   std::optional<float> exposure;  ///< automatic without
+  scene::ToneMap tone_map = scene::ToneMap::none;
 };
 
 /// The scene as a command names it.
@@ -22,6 +23,7 @@ struct SceneName {
   std::string spec;                        ///< SCENE
   std::optional<std::string> triangles{};  ///< --triangles
   std::optional<std::string> albedo{};     ///< --albedo
+  std::optional<std::string> looks{};      ///< --looks
 };
 
 /// METHOD:key=value of a choice, without the keys whose values are the default.

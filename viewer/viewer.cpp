@@ -41,8 +41,9 @@ double size_of(const scene::Scene& scene, const scene::Camera& camera) {
 
 bool are_alike(const Shown& a, const Shown& b) {
   return a.view.camera == b.view.camera && a.view.lights == b.view.lights && a.view.medium == b.view.medium &&
-         a.view.size == b.view.size && a.shadow_map == b.shadow_map &&
-         spec_of(a.volume) == spec_of(b.volume) && spec_of(a.surface) == spec_of(b.surface);
+         a.view.size == b.view.size && a.view.surroundings == b.view.surroundings &&
+         a.shadow_map == b.shadow_map && spec_of(a.volume) == spec_of(b.volume) &&
+         spec_of(a.surface) == spec_of(b.surface);
 }
 
 std::span<const float> floats_of(const std::vector<glm::vec3>& image) {
@@ -66,7 +67,6 @@ Viewer::Viewer(gpu::Context& context, const scene::Scene& scene, SceneName name,
       buffers_(std::make_shared<const frame::SceneBuffers>(context, scene.geometry)),
       left_(context, scene.geometry, buffers_),
       right_(context, scene.geometry, buffers_),
-      develop_(k_develop_frag),
       develop_difference_(k_develop_frag, std::array{gpu::Constant(0, 1)}),
       speed_(0.1 * scene_size_) {}
 
@@ -493,11 +493,19 @@ void Viewer::develop() {
     pass.pipeline().set(0, brightness);
     pass.run({picture});
   };
+  auto found = develop_.find(shown_.tone_map);
+  if (found == develop_.end()) {
+    const std::array tone_map = {gpu::Constant(1, static_cast<std::uint32_t>(shown_.tone_map))};
+    found = develop_.emplace(shown_.tone_map, frame::ScreenPass(k_develop_frag, tone_map)).first;
+  }
+  const frame::ScreenPass& as_shown = found->second;
   if (right) right->bind_sampler(1);
-  develop(left_picture_, left, is_difference ? develop_difference_ : develop_,
-          is_difference ? exposure / difference_scale_ : exposure);
+  if (is_difference)
+    develop(left_picture_, left, develop_difference_, exposure / difference_scale_);
+  else
+    develop(left_picture_, left, as_shown, exposure);
   if (right && layout_ == Layout::split)
-    develop(right_picture_, *right, develop_, exposure);
+    develop(right_picture_, *right, as_shown, exposure);
   else
     right_picture_ = {};
 }
@@ -508,10 +516,10 @@ void Viewer::compose() {
     return;
   }
   // Developed once, and shown until something changes.
-  const std::string wanted =
-      fmt::format("{} {} {} {} {} {}", pictures_drawn_, static_cast<int>(beside_), static_cast<int>(layout_),
-                  shown_.exposure.value_or(automatic_exposure_), difference_scale_,
-                  truth_image_ ? truth_image_->size.x : 0);
+  const std::string wanted = fmt::format(
+      "{} {} {} {} {} {} {}", pictures_drawn_, static_cast<int>(shown_.tone_map), static_cast<int>(beside_),
+      static_cast<int>(layout_), shown_.exposure.value_or(automatic_exposure_), difference_scale_,
+      truth_image_ ? truth_image_->size.x : 0);
   if (wanted != developed_) develop();
   developed_ = wanted;
 
@@ -559,7 +567,8 @@ void Viewer::save_picture() {
                          {{"airlight.command", command()}, {"airlight.version", quality::version()}});
     std::filesystem::path preview = file;
     quality::write_png(preview.replace_extension(".png"), images.radiance, images.size,
-                       shown_.exposure.value_or(quality::automatic_exposure(images.radiance)));
+                       shown_.exposure.value_or(quality::automatic_exposure(images.radiance)),
+                       shown_.tone_map);
     say(fmt::format("{} and {} written", file.string(), preview.filename().string()));
   } catch (const std::exception& error) {
     say(error.what());

@@ -179,7 +179,8 @@ class Viewer {
     std::size_t rung;
   };
   std::deque<Stages> history_;
-  frame::ScreenPass develop_, develop_difference_;
+  std::map<scene::ToneMap, frame::ScreenPass> develop_;  ///< made when first needed
+  frame::ScreenPass develop_difference_;
   /// The pictures as the screen has colours, of their own sizes; row 0 at the top.
   gpu::Texture left_picture_, right_picture_;
   std::string developed_;  ///< what they have been developed from, in words; empty for nothing

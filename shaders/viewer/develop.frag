@@ -1,11 +1,12 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "shared.glsl"
+#include "viewer/tone_map.glsl"
 
 // A frame's radiance as a screen shows colours, or how it differs from another one's.
 layout(binding = 0) uniform sampler2D radiance;
 layout(binding = 1) uniform sampler2D other_radiance;
 layout(constant_id = 0) const uint k_difference = 0;
+layout(constant_id = 1) const uint k_tone_map = 0;
 // What it is multiplied by [m² sr/W]: the exposure, or what makes the largest difference shown 1.
 layout(location = 0) uniform float brightness;
 layout(location = 0) out vec4 colour;
@@ -28,6 +29,6 @@ void main() {
     vec3 other = texelFetch(other_radiance, pixel, 0).rgb;
     colour = vec4(difference_colour(brightness * dot(shown - other, vec3(1.0 / 3.0))), 1.0);
   } else {
-    colour = vec4(srgb_of(brightness * shown), 1.0);
+    colour = vec4(srgb_of(tone_mapped(k_tone_map, brightness * shown)), 1.0);
   }
 }

@@ -69,6 +69,8 @@ TEST(ShownPictures, AreShotsThatReadBackTheSame) {
   two.view.lights.push_back(spot);
   two.view.lights.push_back(scene::sun("", {0, 1, 1}, {2, 1, 0.5}));
   two.view.medium.top = 12.5;
+  two.view.surroundings = {{0.1f, 0.2f, 0.3f}, {1, 2, 3}};
+  two.tone_map = scene::ToneMap::agx;
   for (const Shown& written : {shown(), two}) {
     std::ofstream(file) << shot_of({"spheres", "6000", {}}, written);
     const scene::Scene read = scene::load_shot(file);
@@ -79,6 +81,8 @@ TEST(ShownPictures, AreShotsThatReadBackTheSame) {
     EXPECT_EQ(camera.vertical_fov_degrees, written.view.camera.vertical_fov_degrees);
     EXPECT_EQ(read.medium, written.view.medium);
     EXPECT_EQ(read.exposure, written.exposure);
+    EXPECT_EQ(read.tone_map, written.tone_map);
+    EXPECT_EQ(read.surroundings, written.view.surroundings);
     ASSERT_EQ(read.lights.size(), written.view.lights.size());
     for (std::size_t i = 0; i < read.lights.size(); ++i) {
       scene::Light light = written.view.lights[i];

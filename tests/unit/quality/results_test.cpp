@@ -230,6 +230,7 @@ void expect_every_field(const Comparison& comparison) {
   look_for(view.camera, results.at("camera"));
   look_for(view.lights[0], results.at("lights").at(0));
   look_for(view.medium, results.at("medium"));
+  look_for(view.surroundings, results);
   look_for(view, results);
   EXPECT_EQ(options.size(), count);
 }
