@@ -137,7 +137,7 @@ int run(int argc, char** argv) {
   compare_command.add_flag(
       "--debug", options.debug,
       "also write pictures of what a volume method holds; of vsv: the grid before and after "
-      "the scan, and the shadowed samples of each pixel");
+      "the scan, and the shadowed samples and the changes of visibility of each pixel");
 
   CLI::App& sweep_command = add_image_command(
       app, options, "sweep",

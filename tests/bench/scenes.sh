@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The figures of README.md and docs/figures.md:
-# `tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|quadrature|lights|curves|cost|leaks|causes|path|rivals|bits-or-tree [OUT]`.
+# `tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|quadrature|lights|curves|cost|leaks|causes|path|rivals|rows|flicker|bits-or-tree [OUT]`.
 # The paper's Tables 2 to 4 and the bandwidth: build/release/tests/bench/airlight_tables, after ./test.
 #
 # truth     the exact reference against itself refined, against rays, 256×256 and 512×512 pixels
@@ -17,6 +17,8 @@
 # leaks     the three populations on closed and open models, 512×512 pixels
 # causes    the error of a fine grid, and what it becomes as one thing at a time is at its default
 # rivals    vsv and what engines use instead, each at several costs, 1024×1024: sweeps, and what leads at which error
+# rows          march by look-ups of the shadow map and of rows of light rays, 1024×1024: sweeps
+# flicker       vsv and its rivals along three paths, 512×512: sweeps, and what leads at which error and flicker
 # bits-or-tree  vsv by bits and by the tree, over the counts of φ, 512×512: a sweep each
 # The models are not part of the project: AIRLIGHT_SHARED is the folder that holds scenes/ (default ../shared).
 set -euo pipefail
@@ -208,6 +210,21 @@ case ${1:-} in
       ./run front "$out/rivals_$scene"
     done
     ;;
+  rows)
+    for scene in window sponza fence maple sun_sponza; do
+      sweep "$scene" --size 1024x1024 --surface none --frames 6 -o "$out/rows_$scene" --quiet \
+        --volume 'march:steps={16,64}:spacing=angle:look-up={map,rows},march:where=epipolar:steps=64:look-up={map,rows}'
+    done
+    ;;
+  flicker)
+    settings='vsv:phi={256,512},vsv:where=epipolar:phi=256,vsv:query=tree,march:where=epipolar:steps=64,march:steps=64:jitter=gathered'
+    settings+=',march:steps=64:look-up=rows,froxel:history={on,off}'
+    declare -A path=([window]=assets/paths/window_walk.toml [sponza]=tests/bench/rest_sponza.toml [nave]=assets/paths/nave_evening.toml)
+    for scene in window sponza nave; do
+      sweep "$scene" --path "${path[$scene]}" --size 512x512 --surface none --frames 2 -o "$out/flicker_$scene" --quiet --volume "$settings"
+      for error in rrmse flicker; do ./run front "$out/flicker_$scene" --error $error; done
+    done
+    ;;
   bits-or-tree)
     for scene in sponza window fence maple; do
       sweep "$scene" --size 512x512 --surface none --frames 6 -o "$out/bits_or_tree_$scene" --quiet \
@@ -215,7 +232,7 @@ case ${1:-} in
     done
     ;;
   *)
-    echo "usage: tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|quadrature|lights|curves|cost|leaks|causes|path|rivals|bits-or-tree [OUT]" >&2
+    echo "usage: tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|quadrature|lights|curves|cost|leaks|causes|path|rivals|rows|flicker|bits-or-tree [OUT]" >&2
     exit 2
     ;;
 esac

@@ -924,7 +924,7 @@ TEST_F(SeveralLights, AreComparedTogether) {
   EXPECT_EQ(results["view"]["lights"][2]["name"], "light2");
   const Json& vsv = results["runs"][0];
   EXPECT_LT(vsv["error"]["airlight"]["rrmse"], 0.1);
-  EXPECT_EQ(vsv["debug_images"].size(), 3 * 3u);
+  EXPECT_EQ(vsv["debug_images"].size(), 3 * 4u);
   for (const Json& light : vsv["lights"]) EXPECT_TRUE(light["stages_ms"].contains("integrate"));
   EXPECT_EQ(results["runs"][1]["error"]["airlight"]["rrmse"], 0.0);
   EXPECT_TRUE(fs::exists(file("out/vsv+shadow-map_grid_after_scan_2.exr")));
@@ -1045,11 +1045,20 @@ TEST_F(Compare, DebugAddsPicturesOfTheGrid) {
       EXPECT_THAT(report, HasSubstr(name.substr(name.rfind('+') + 1) + ".png"));
       images[name.substr(prefix.size())] = image;
     }
-    ASSERT_EQ(images.size(), 3u);
+    ASSERT_EQ(images.size(), 4u);
     const Image &before = images.at("grid_before_scan"), &after = images.at("grid_after_scan");
     EXPECT_EQ(before.size, glm::ivec2(i == 0 ? 64 : 48, 128));
     EXPECT_EQ(after.size, before.size);
     EXPECT_EQ(images.at("shadowed_samples").size, glm::ivec2(32, 32));
+    // Where no sample is shadowed nothing changes, and the other way round.
+    ASSERT_EQ(images.at("changes").size, glm::ivec2(32, 32));
+    int changing = 0;
+    for (std::size_t pixel = 0; pixel < 32 * 32; ++pixel) {
+      const bool changes = images.at("changes").channels.at("Y")[pixel] > 0.0f;
+      EXPECT_EQ(changes, images.at("shadowed_samples").channels.at("Y")[pixel] > 0.0f) << pixel;
+      changing += changes ? 1 : 0;
+    }
+    EXPECT_GT(changing, 0);
     for (std::size_t pixel = 0; pixel < before.channels.at("Y").size(); ++pixel)
       EXPECT_GE(after.channels.at("Y")[pixel], before.channels.at("Y")[pixel]);
     EXPECT_GT(mean(after.channels.at("Y")), mean(before.channels.at("Y")));
