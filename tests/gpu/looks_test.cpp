@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <vector>
 
@@ -53,30 +52,23 @@ struct Image {
   glm::vec3 at(int x, int y) const { return texels[static_cast<std::size_t>(y * size.x + x)]; }
 };
 
-/// What `Looks` draws of a frame.
-void look(const scene::Geometry& geometry, const scene::View& view,
-          const std::function<void(const Looks&, glm::ivec2)>& take) {
+/// An image that `Looks` draws of a frame.
+Image look(const scene::Geometry& geometry, const scene::View& view, gpu::Texture LookImages::*which) {
+  Image image;
   tests::look_into_frame(geometry, view, 16, [&](const FrameInputs& inputs) {
-    Looks looks(gpu_context(), geometry, inputs.scene.order());
-    looks.draw(inputs.scene, inputs.triangles);
-    take(looks, view.size);
+    LookImages images;
+    inputs.scene.looks()->draw(inputs.scene, inputs.triangles, images);
+    image = {view.size, (images.*which).read<glm::vec4>()};
   });
+  return image;
 }
 
 Image base_colours(const scene::Geometry& geometry, const scene::View& view) {
-  Image image;
-  look(geometry, view, [&](const Looks& looks, glm::ivec2 size) {
-    image = {size, looks.base_colours().read<glm::vec4>()};
-  });
-  return image;
+  return look(geometry, view, &LookImages::base_colours);
 }
 
 Image shading_normals(const scene::Geometry& geometry, const scene::View& view) {
-  Image image;
-  look(geometry, view, [&](const Looks& looks, glm::ivec2 size) {
-    image = {size, looks.shading_normals().read<glm::vec4>()};
-  });
-  return image;
+  return look(geometry, view, &LookImages::shading_normals);
 }
 
 glm::vec3 linear(Texel texel) {
