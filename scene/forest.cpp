@@ -110,15 +110,14 @@ void Grower::grow_branch(glm::dvec3 from, glm::dvec3 towards, double length, dou
     for (int i = 0; i < k_spray; ++i) {
       const double part = (i + 1.0) / k_spray;
       const glm::dvec3 stalk = twig + reach * part * out + 0.7 * tree.leaf * direction();
-      glm::dvec3 way_of_leaf = glm::normalize(out + 0.9 * direction() - glm::dvec3(0.0, 0.25, 0.0));
-      leaf(stalk, way_of_leaf, glm::normalize(glm::dvec3(0.0, 1.0, 0.0) + 0.6 * direction()),
-           tree.leaf * between(0.75, 1.25));
+      const glm::dvec3 along_leaf = glm::normalize(out + 0.9 * direction() - glm::dvec3(0.0, 0.25, 0.0));
+      const double size = tree.leaf * between(0.75, 1.25);
+      leaf(stalk, along_leaf, glm::normalize(glm::dvec3(0.0, 1.0, 0.0) + 0.6 * direction()), size);
     }
   }
 }
 
 void Grower::grow_tree(const Tree& tree) {
-  const auto [foot, height, girth, lowest, sprays, leaf] = tree;
   constexpr std::array<glm::vec3, 3> k_barks = {
       {{0.13f, 0.1f, 0.075f}, {0.17f, 0.145f, 0.115f}, {0.1f, 0.085f, 0.06f}}};
   constexpr std::array<glm::vec3, 4> k_greens = {
@@ -126,13 +125,13 @@ void Grower::grow_tree(const Tree& tree) {
   model_.paint(k_barks[static_cast<std::size_t>(between(0.0, k_barks.size()))]);
   constexpr int k_pieces = 9;
   std::array<glm::dvec4, k_pieces + 1> trunk;
-  glm::dvec3 at(foot.x, ground(foot.x, foot.y) - 0.2, foot.y), way(0.0, 1.0, 0.0);
+  glm::dvec3 at(tree.foot.x, ground(tree.foot.x, tree.foot.y) - 0.2, tree.foot.y), way(0.0, 1.0, 0.0);
   for (int i = 0; i <= k_pieces; ++i) {
     const double part = static_cast<double>(i) / k_pieces;
     const double flare = i == 0 ? 1.5 : i == 1 ? 1.0 : 0.95;
-    trunk[static_cast<std::size_t>(i)] = {at, girth * flare * (1.0 - 0.85 * part)};
+    trunk[static_cast<std::size_t>(i)] = {at, tree.girth * flare * (1.0 - 0.85 * part)};
     way = glm::normalize(way + 0.07 * direction() + glm::dvec3(0.0, 0.1, 0.0));
-    at += (i == 0 ? 0.4 : (height - 0.4) / (k_pieces - 1)) * way;
+    at += (i == 0 ? 0.4 : (tree.height - 0.4) / (k_pieces - 1)) * way;
   }
   model_.rod(trunk, 12);
 
@@ -140,7 +139,7 @@ void Grower::grow_tree(const Tree& tree) {
   const double turn = between(0.0, 2.0 * k_pi);
   std::vector<std::array<glm::dvec3, 2>> roots;
   for (int i = 0; i < k_branches; ++i) {
-    const double part = lowest + (0.98 - lowest) * i / (k_branches - 1.0), along = k_pieces * part;
+    const double part = tree.lowest + (0.98 - tree.lowest) * i / (k_branches - 1.0), along = k_pieces * part;
     const auto piece = static_cast<std::size_t>(std::min(along, k_pieces - 1.0));
     const glm::dvec3 from =
         glm::mix(glm::dvec3(trunk[piece]), glm::dvec3(trunk[piece + 1]), along - static_cast<double>(piece));
@@ -150,8 +149,8 @@ void Grower::grow_tree(const Tree& tree) {
   model_.paint(k_greens[static_cast<std::size_t>(between(0.0, k_greens.size()))]);
   for (std::size_t i = 0; i < roots.size(); ++i) {
     const double part = static_cast<double>(i) / static_cast<double>(roots.size());
-    const double length = height * (0.1 + 0.16 * std::sin(k_pi * (0.15 + 0.8 * part)));
-    grow_branch(roots[i][0], roots[i][1], length, girth * (0.26 - 0.14 * part), tree);
+    const double length = tree.height * (0.1 + 0.16 * std::sin(k_pi * (0.15 + 0.8 * part)));
+    grow_branch(roots[i][0], roots[i][1], length, tree.girth * (0.26 - 0.14 * part), tree);
   }
 }
 
@@ -186,7 +185,8 @@ void Grower::grow_ferns(int count) {
   for (int i = 0; i < count; ++i) {
     const double part = between(0.0, 1.0), z = 7.4 - 34.0 * part * part;
     const double aside = k_path * 0.8 + (2.5 + 8.0 * part) * between(0.0, 1.0);
-    grow_fern({path_at(z) + (between(0.0, 1.0) < 0.5 ? -aside : aside), z}, between(0.5, 1.0));
+    const double reach = between(0.5, 1.0), hand = between(0.0, 1.0) < 0.5 ? -1.0 : 1.0;
+    grow_fern({path_at(z) + hand * aside, z}, reach);
   }
 }
 
@@ -201,8 +201,9 @@ void Grower::lay_litter(int leaves) {
       const double x = path_at(z) + (4.0 + 14.0 * part) * between(-1.0, 1.0);
       glm::dvec3 along = direction();
       along.y *= 0.3;
+      const double length = between(0.07, 0.14);
       leaf({x, ground(x, z) + 0.03, z}, glm::normalize(along),
-           glm::normalize(glm::dvec3(0.0, 1.0, 0.0) + 0.5 * direction()), between(0.07, 0.14));
+           glm::normalize(glm::dvec3(0.0, 1.0, 0.0) + 0.5 * direction()), length);
     }
   }
 }
@@ -222,7 +223,8 @@ Scene make_forest() {
   const auto plant = [&](double cell, bool is_sapling) {
     for (double z = 2.0; z > k_far; z -= cell) {
       for (double x = -k_side; x < k_side; x += cell) {
-        const glm::dvec2 foot(x + cell * grower.between(0.1, 0.9), z - cell * grower.between(0.1, 0.9));
+        const double foot_z = z - cell * grower.between(0.1, 0.9);
+        const glm::dvec2 foot(x + cell * grower.between(0.1, 0.9), foot_z);
         const double size = grower.between(0.0, 1.0), far = std::clamp(-foot.y / 60.0, 0.0, 1.0);
         // In what is seen.
         if (std::abs(foot.x) > 12.0 - 0.6 * foot.y) continue;

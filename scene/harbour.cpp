@@ -205,9 +205,10 @@ Scene make_harbour() {
        {glm::dvec2(-6.0, -13.5), {-23.5, -14.0}, {6.2, 13.6}, {21.0, -14.0}, {1.5, -15.5}}) {
     model.paint(k_wood);
     for (int i = 0; i < 7; ++i) {
-      const double size = random.between(0.5, 0.95), up = i < 5 ? 0.0 : 0.75;
-      const glm::dvec3 at(pile.x + random.between(-1.6, 1.6) * (i < 5 ? 1.0 : 0.4), k_quay - 0.02 + up,
-                          pile.y + random.between(-1.0, 1.0) * (i < 5 ? 1.0 : 0.4));
+      const bool is_above = i >= 5;
+      const double size = random.between(0.5, 0.95), spread = is_above ? 0.4 : 1.0;
+      const double z = pile.y + spread * random.between(-1.0, 1.0);
+      const glm::dvec3 at(pile.x + spread * random.between(-1.6, 1.6), k_quay + (is_above ? 0.73 : -0.02), z);
       if (i % 3 == 2)
         model.turned(at, std::array<glm::dvec2, 4>{{{0.28, 0.0}, {0.36, 0.3}, {0.36, 0.65}, {0.28, 0.95}}},
                      12);
