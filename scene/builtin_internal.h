@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <random>
 #include <span>
 #include <vector>
 
@@ -11,6 +13,19 @@
 
 /// What the built-in scenes share, and no one else needs.
 namespace airlight::scene {
+
+/// Random numbers that every library gives alike: the standard fixes the engine, but not what its
+/// distributions make of it.
+class Random {
+ public:
+  explicit Random(std::uint32_t seed) : engine_(seed) {}
+
+  /// In [a, b), every number alike.
+  double between(double a, double b) { return a + (b - a) * static_cast<double>(engine_()) / 4294967296.0; }
+
+ private:
+  std::mt19937 engine_;
+};
 
 /// Adds shapes to a geometry. Faces are counter-clockwise seen from outside a solid.
 class Modeller {
@@ -46,6 +61,17 @@ class Modeller {
   /// @param profile radius (positive) and height, from the bottom up
   void turned(glm::dvec3 foot, std::span<const glm::dvec2> profile, std::uint32_t sides);
 
+  /// A closed round rod along points that turn by less than a right angle at each.
+  /// @param path centre and radius (positive), at least two
+  void rod(std::span<const glm::dvec4> path, std::uint32_t sides);
+
+  /// A closed slab whose upper face is uneven.
+  /// @param x, z    lines of the grid on it, each rising
+  /// @param bottom  height of its level lower face
+  /// @param height  of the upper one at (x, z)
+  void slab(std::span<const double> x, std::span<const double> z, double bottom,
+            const std::function<double(double, double)>& height);
+
  private:
   Geometry& geometry_;
 };
@@ -69,6 +95,9 @@ void bar(Modeller& model, const Plane& plane, const Path& path, bool closed, dou
 Scene make_window();
 Scene make_nave();
 Scene make_fence();
+Scene make_forest();
+Scene make_harbour();
+Scene make_lighthouse();
 
 /// @param triangles at least 2000
 Scene make_spheres(std::size_t triangles);

@@ -90,6 +90,63 @@ void Modeller::turned(glm::dvec3 foot, std::span<const glm::dvec2> profile, std:
   }
 }
 
+void Modeller::rod(std::span<const glm::dvec4> path, std::uint32_t sides) {
+  const auto at = [&](std::size_t i) { return glm::dvec3(path[i]); };
+  std::vector<std::uint32_t> first(sides), below(sides), ring(sides);
+  glm::dvec3 side(0.0);
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const glm::dvec3 along = glm::normalize(at(std::min(i + 1, path.size() - 1)) - at(i > 0 ? i - 1 : 0));
+    // Carried along, so that the rod is not twisted.
+    if (i == 0) side = std::abs(along.y) < 0.9 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0);
+    side = glm::normalize(side - glm::dot(side, along) * along);
+    const glm::dvec3 other = glm::cross(along, side);
+    for (std::uint32_t k = 0; k < sides; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / sides;
+      ring[k] = vertex(at(i) + path[i].w * (std::cos(angle) * side + std::sin(angle) * other));
+    }
+    for (std::uint32_t k = 0; k < sides && i > 0; ++k)
+      quad(below[k], below[(k + 1) % sides], ring[(k + 1) % sides], ring[k]);
+    if (i == 0) first = ring;
+    below = ring;
+  }
+  for (std::uint32_t k = 1; k + 1 < sides; ++k) {
+    triangle(first[0], first[k + 1], first[k]);
+    triangle(ring[0], ring[k], ring[k + 1]);
+  }
+}
+
+void Modeller::slab(std::span<const double> x, std::span<const double> z, double bottom,
+                    const std::function<double(double, double)>& height) {
+  const std::size_t columns = x.size(), rows = z.size();
+  const auto first = static_cast<std::uint32_t>(geometry_.positions.size());
+  const auto at = [&](std::size_t i, std::size_t j) {
+    return first + static_cast<std::uint32_t>(j * columns + i);
+  };
+  for (double v : z)
+    for (double u : x) vertex({u, height(u, v), v});
+  for (std::size_t j = 0; j + 1 < rows; ++j)
+    for (std::size_t i = 0; i + 1 < columns; ++i)
+      quad(at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j));
+
+  // Its rim, counter-clockwise seen from above, goes down to the lower face, a fan.
+  std::vector<std::uint32_t> rim;
+  for (std::size_t j = 0; j + 1 < rows; ++j) rim.push_back(at(0, j));
+  for (std::size_t i = 0; i + 1 < columns; ++i) rim.push_back(at(i, rows - 1));
+  for (std::size_t j = rows - 1; j > 0; --j) rim.push_back(at(columns - 1, j));
+  for (std::size_t i = columns - 1; i > 0; --i) rim.push_back(at(i, 0));
+  const std::uint32_t hub = vertex({0.5 * (x.front() + x.back()), bottom, 0.5 * (z.front() + z.back())});
+  const auto foot = static_cast<std::uint32_t>(geometry_.positions.size());
+  for (std::uint32_t upper : rim) {
+    const glm::vec3 above = geometry_.positions[upper];
+    vertex({above.x, bottom, above.z});
+  }
+  for (std::uint32_t k = 0; k < rim.size(); ++k) {
+    const auto next = static_cast<std::uint32_t>((k + 1) % rim.size());
+    quad(rim[k], foot + k, foot + next, rim[next]);
+    triangle(hub, foot + next, foot + k);
+  }
+}
+
 void arc(Path& path, glm::dvec2 centre, double radius, double from, double to, int steps) {
   for (int i = 0; i <= steps; ++i) {
     const double angle = from + (to - from) * i / steps;

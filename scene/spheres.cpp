@@ -1,6 +1,5 @@
 #include <array>
 #include <cmath>
-#include <random>
 #include <vector>
 
 #include "scene/builtin_internal.h"
@@ -20,15 +19,12 @@ struct Sphere {
 
 /// Throws spheres at the shell around the lamp until a hundred have found a free place.
 std::vector<Sphere> scatter() {
-  // The standard fixes what the engine gives, but not what its distributions make of it.
-  std::mt19937 engine(7);
-  const auto between = [&](double a, double b) {
-    return a + (b - a) * static_cast<double>(engine()) / 4294967296.0;
-  };
+  Random random(7);
   std::vector<Sphere> spheres;
   while (spheres.size() < k_spheres) {
-    const glm::dvec3 at(between(-1.0, 1.0), between(-1.0, 1.0), between(-1.0, 1.0));
-    const double radius = 0.12 + 0.3 * std::pow(between(0.0, 1.0), 2.0);
+    const double z = random.between(-1.0, 1.0), y = random.between(-1.0, 1.0);
+    const glm::dvec3 at(random.between(-1.0, 1.0), y, z);
+    const double radius = 0.12 + 0.3 * std::pow(random.between(0.0, 1.0), 2.0);
     const glm::dvec3 centre = k_farthest * at;
     const double distance = glm::length(centre);
     bool is_free = distance - radius > k_nearest && distance + radius < k_farthest;

@@ -112,6 +112,41 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Accuracy,
                                          Agreement{"sphere", 0.003, 0.01},
                                          Agreement{"half-space", 0.002, 0.005}));
 
+/// Of a scene with all of its lights, as `render` shows it.
+struct Picture {
+  const char* scene;
+  double rrmse;
+};
+
+void PrintTo(const Picture& picture, std::ostream* stream) {
+  *stream << picture.scene;
+}
+
+class Pictures : public testing::TestWithParam<Picture> {};
+
+TEST_P(Pictures, AreThoseOfTheReference) {
+  const Picture& picture = GetParam();
+  const scene::Scene& scene = tests::builtin(picture.scene);
+  scene::View view = tests::view_of(scene, {64, 36});
+  view.lights = scene.lights;
+  tests::Truth truth = tests::trace(scene.geometry, view);
+  for (std::size_t light = 1; light < view.lights.size(); ++light) {
+    const auto one = reference::Reference(scene.geometry, view, light).exact().radiance;
+    for (std::size_t i = 0; i < one.size(); ++i) truth.airlight.radiance[i] += one[i];
+  }
+  // Where leaves and ropes are no thicker than pixels, more of these are at silhouettes.
+  const auto error = tests::error_of(tests::render_vsv(scene.geometry, view), truth, 0.015);
+  RecordProperty(picture.scene, std::to_string(error.rrmse) + ", bias " + std::to_string(error.bias));
+  // As above, of changes of visibility by the dozen in each view ray; and what is thinner than a texel of the
+  // shadow map is hit or missed.
+  EXPECT_LT(error.rrmse, picture.rrmse);
+  EXPECT_LT(std::abs(error.bias), 0.01);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Pictures,
+                         testing::Values(Picture{"forest", 0.08}, Picture{"lighthouse", 0.04},
+                                         Picture{"harbour", 0.02}));
+
 TEST(LitRuns, GoOnBeyondTheLastCellOfAHalfPlane) {
   // A screen under open sky: half-planes that meet it have no cells beyond its edge, and their last ones are
   // dark.

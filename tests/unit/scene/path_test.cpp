@@ -180,8 +180,12 @@ TEST(Motion, IsOfTheCameraAndOfLights) {
 }
 
 TEST(PathsOfTheProject, Load) {
-  for (const auto& [name, builtin] :
-       {std::pair{"window_flight", "window"}, {"window_walk", "window"}, {"nave_evening", "nave"}}) {
+  for (const auto& [name, builtin] : {std::pair{"window_flight", "window"},
+                                      {"window_walk", "window"},
+                                      {"nave_evening", "nave"},
+                                      {"forest_walk", "forest"},
+                                      {"lighthouse_turn", "lighthouse"},
+                                      {"harbour_evening", "harbour"}}) {
     const Scene scene = find_builtin(builtin)->make({});
     const Path path = load_path(AIRLIGHT_ASSETS / "paths" / (std::string(name) + ".toml"),
                                 {scene.cameras[0], scene.lights, scene.medium, {64, 64}});
