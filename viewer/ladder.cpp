@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "frame/none.h"
 #include "frame/option.h"
+#include "frame/point_reader.h"
 #include "quality/probes.h"
 
 namespace airlight::viewer {
@@ -112,6 +114,19 @@ std::vector<frame::DebugImage> Ladder::inspect(std::size_t rung) {
   of_rung.frame->render(drawn.view, *of_rung.made->surface, *of_rung.made->airlight, off);
   context_.finish();
   return images;
+}
+
+frame::SurfacePoints Ladder::surface_points(std::size_t rung) {
+  const Shown drawn = shown(rung);
+  OfRung& of_rung = of_rung_[rung];
+  frame::PointReader reader;
+  frame::NoAirlight no_airlight;
+  gpu::StageTimer off(nullptr);
+  of_rung.frame->render(drawn.view, reader, no_airlight, off);
+  frame::SurfacePoints points = reader.take_points();
+  of_rung.frame->render(drawn.view, *of_rung.made->surface, *of_rung.made->airlight, off);
+  context_.finish();
+  return points;
 }
 
 std::optional<double> Ladder::ms(std::size_t rung) const {

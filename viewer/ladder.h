@@ -43,6 +43,9 @@ class Ladder {
   /// Draws a rung as it is, and what its airlight has left behind.
   std::vector<frame::DebugImage> inspect(std::size_t rung);
 
+  /// Draws a rung as it is, and the points that its surfaces shade.
+  frame::SurfacePoints surface_points(std::size_t rung);
+
   /// As it was drawn last.
   const frame::Frame& frame(std::size_t rung) const { return *of_rung_[rung].frame; }
 

@@ -457,6 +457,10 @@ void Viewer::picture_panel() {
     }
     if (ImGui::Selectable(k_undecided)) inspected_ = k_undecided;
     gui_.note(std::string("over=") + k_undecided);
+    if (ImGui::IsItemHovered())
+      ImGui::SetTooltip(
+          "where surfaces are wrongly lit or dark, red, and where rounding decides, yellow: judged by the "
+          "truth");
     ImGui::EndCombo();
   }
   gui_.note("over");
@@ -584,7 +588,7 @@ void Viewer::overlays() {
   }
   if (!inspected_.empty() && inspected_ == shown_inspection_) {
     // What is of the picture's own shape covers it; what is not lies in it.
-    const bool covers = inspection_.size() == pixels_ || inspected_ == k_undecided;
+    const bool covers = inspection_.size() == pixels_;
     const glm::dvec2 from = covers ? glm::dvec2(0.0) : glm::dvec2(0.3 * size.x, 0.1 * size.y);
     list.AddImage(texture_id(inspection_), point(from), point(covers ? size : glm::dvec2(0.97, 0.9) * size));
   }

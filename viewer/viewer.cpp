@@ -410,15 +410,34 @@ void Viewer::settle(double) {
   is_settled_ = true;
 }
 
+void Viewer::judge_surfaces() {
+  const frame::FrameImages images = left_.frame(0).read();
+  const frame::SurfacePoints points = left_.surface_points(0);
+  quality::SharedReference reference(scene_.geometry, shown_.view, {});
+  std::vector<quality::SurfaceVerdicts> verdicts;
+  for (std::size_t light = 0; light < shown_.view.lights.size(); ++light)
+    verdicts.push_back(reference.verdicts(light, points));
+  std::vector<glm::vec4> colours;
+  for (const glm::vec3& colour : quality::surface_colours(images, verdicts))
+    colours.emplace_back(glm::sqrt(colour), 1.0f);  // nearly as the screen has them
+  if (inspection_.size() != images.size || inspection_.format() != gpu::Format::rgba32f)
+    inspection_ = gpu::Texture(gpu::Format::rgba32f, images.size);
+  inspection_.write(colours.data());
+  shown_inspection_ = inspected_;
+  frames_to_draw_ = 1;
+}
+
 void Viewer::inspect() {
   const auto upload = [](gpu::Texture& texture, const frame::DebugImage& image) {
-    if (texture.size() != image.size) {
+    if (texture.size() != image.size || texture.format() != gpu::Format::r32f) {
       texture = gpu::Texture(gpu::Format::r32f, image.size);
       texture.sample_as_grey();
     }
     texture.write(image.values.data());
   };
-  if (inspected_ != shown_inspection_ && !inspected_.empty() && inspected_ != k_undecided) {
+  if (inspected_ == k_undecided && inspected_ != shown_inspection_) {
+    judge_surfaces();
+  } else if (inspected_ != shown_inspection_ && !inspected_.empty()) {
     if (inspections_.empty()) inspections_ = left_.inspect(0);
     for (const frame::DebugImage& image : inspections_) {
       if (image.name != inspected_) continue;

@@ -100,6 +100,7 @@ class Viewer {
   bool awaits_truth() const;
   void follow_truth();
   void inspect();
+  void judge_surfaces();
   void slice_panel();
   void set_path_time(double seconds);
   scene::View view_to_draw() const;

@@ -410,7 +410,19 @@ TEST_F(Viewers, LookIntoTheMethod) {
   rest();
   click("over=changes");
   rest();
-  EXPECT_NE(pixels(), without);
+  const std::vector<glm::ivec3> changes = pixels();
+  EXPECT_NE(changes, without);
+  click("over");
+  click("over=surfaces");
+  rest();
+  // Yellow or red somewhere, and grey for the most part.
+  int coloured = 0, grey = 0;
+  for (const glm::ivec3& pixel : pixels()) {
+    coloured += pixel.r > pixel.b + 100 ? 1 : 0;
+    grey += pixel.r == pixel.g && pixel.g == pixel.b ? 1 : 0;
+  }
+  EXPECT_GT(coloured, 10);
+  EXPECT_GT(grey, 100000);
   key(GLFW_KEY_O);
   push(KeyEvent{GLFW_KEY_Z, true});
   frames(2);
