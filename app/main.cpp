@@ -103,6 +103,9 @@ int run(int argc, char** argv) {
   add_option(render_command, {"volume", "METHOD", "airlight (default: vsv)"});
   add_option(render_command, {"surface", "METHOD", "surface shadow (default: shadow-map)"});
 
+  add_option(render_command,
+             {"video", "FILE.mp4", "along a path, a video of the images' previews too, by ffmpeg"});
+
   CLI::App& view_command = add_image_command(app, options, "view", "opens a window to fly through a scene");
   view_command
       .add_option("-o", options.output,

@@ -1,3 +1,4 @@
+#include <cstdlib>
 #include <filesystem>
 #include <future>
 #include <map>
@@ -83,6 +84,36 @@ struct Images {
   }
 };
 
+/// What --video asks for. @throws scene::Error (usage) where it cannot be
+std::optional<std::filesystem::path> video_of(const Options& options) {
+  const auto video = options.get("video");
+  if (!video) return {};
+  if (!options.get("path"))
+    throw Error(ExitCode::usage, "--video", "an image does not move", "give a --path");
+  if (std::system("command -v ffmpeg >/dev/null 2>&1") != 0)
+    throw Error(ExitCode::driver, "--video", "ffmpeg, which makes it, is not installed",
+                "install it, or leave out --video: the images are written anyway");
+  return *video;
+}
+
+/// Makes the video of the previews of a path's images.
+/// @throws scene::Error (bad_file)
+void write_video(const std::filesystem::path& video, const std::filesystem::path& output,
+                 const scene::Path& path) {
+  // ffmpeg's numbers, as scene::frame_ending has them.
+  std::string images = std::filesystem::path(output).replace_extension().string();
+  for (std::size_t at = 0; (at = images.find('%', at)) != std::string::npos; at += 2) images.insert(at, "%");
+  const double moves = static_cast<double>(path.views.size() - 1);
+  const double rate = path.seconds > 0.0 && moves > 0.0 ? moves / path.seconds : 25.0;
+  // Players want even sides, and colours at half the resolution.
+  const std::string command = fmt::format(
+      "ffmpeg -loglevel error -y -framerate {} -start_number 0 -i {} -vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2' "
+      "-pix_fmt yuv420p -crf 18 {}",
+      rate, quality::shell_quote(images + "_%04d.png"), quality::shell_quote(video.string()));
+  if (std::system(command.c_str()) != 0)
+    throw Error(ExitCode::bad_file, video.string(), "ffmpeg could not write it", "its own words stand above");
+}
+
 }  // namespace
 
 void render(const Options& options) {
@@ -105,10 +136,15 @@ void render(const Options& options) {
   fit_to_view(volumes, surfaces, subject);
   const quality::VolumeChoice& volume = volumes[0];
   const quality::SurfaceChoice& surface = surfaces[0];
+  const std::optional<std::filesystem::path> video = video_of(options);
   if (output.has_parent_path()) require_folder(output.parent_path());
   const std::filesystem::path first = subject.path ? numbered(output, 0) : output;
   require_writable(first);
   require_writable(beside(first));
+  if (video) {
+    if (video->has_parent_path()) require_folder(video->parent_path());
+    require_writable(*video);
+  }
   if (!options.quiet) say_warnings(subject.scene.report);
 
   require_memory({.size = subject.view.size,
@@ -149,6 +185,7 @@ void render(const Options& options) {
       images.write(output, views[i], frame.take());
     }
   }
+  if (video) write_video(*video, output, *subject.path);
   if (options.quiet) return;
   if (images.first_is_black)
     say("airlight: warning: the image is black: " + quality::why_black(subject.scene.geometry, subject.view));

@@ -1331,6 +1331,21 @@ class Paths : public CommandLine {
   }
 };
 
+TEST_F(Paths, BecomeAVideoWhereFfmpegIs) {
+  const Words words = {"render", "cornell", "--path", "path.toml", "-o", "50%d.exr", "--video", "walk.mp4"};
+  if (std::system("command -v ffmpeg >/dev/null 2>&1") != 0) {
+    expect_one_line_error(small(words), 4);
+    EXPECT_FALSE(fs::exists(file("50%d_0000.exr")));
+    return;
+  }
+  const Result result = small(words);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::string video = read_text(file("walk.mp4"));
+  EXPECT_EQ(video.substr(4, 4), "ftyp");
+  EXPECT_THAT(video, HasSubstr("moov"));
+  expect_one_line_error(small({"render", "cornell", "-o", "x.exr", "--video", "x.mp4"}), 2);
+}
+
 TEST_F(Paths, RendersNumberedImagesOfOneExposure) {
   const Result result = small({"render", "cornell", "--path", "path.toml", "-o", "out.exr"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
