@@ -121,13 +121,6 @@ void add_shed(Modeller& model, glm::dvec3 lower, glm::dvec3 size) {
   }
 }
 
-/// An open boat with its thwarts.
-void add_dinghy(Modeller& model, glm::dvec3 at, double heading, double length) {
-  ship(
-      model,
-      {.at = at, .heading = heading, .length = length, .mast_height = 1.15 * length, .masts = 1, .yards = 0});
-}
-
 }  // namespace
 
 Scene make_harbour() {
@@ -181,10 +174,19 @@ Scene make_harbour() {
                .mast_height = 14.5,
                .masts = 2,
                .yards = 0});
-  add_dinghy(model, {-4.6, 0.0, 3.5}, 75.0, 6.5);
-  add_dinghy(model, {-9.5, 0.0, 8.0}, 40.0, 7.5);
-  add_dinghy(model, {19.0, 0.0, -3.0}, 100.0, 7.0);
-  add_dinghy(model, {-25.0, 0.0, -6.5}, 175.0, 9.0);
+  ship(model,
+       {.at = {-4.6, 0.0, 3.5}, .heading = 75.0, .length = 6.5, .mast_height = 7.5, .masts = 1, .yards = 0});
+  ship(model,
+       {.at = {-9.5, 0.0, 8.0}, .heading = 40.0, .length = 7.5, .mast_height = 8.6, .masts = 1, .yards = 0});
+  ship(
+      model,
+      {.at = {19.0, 0.0, -3.0}, .heading = 100.0, .length = 7.0, .mast_height = 8.0, .masts = 1, .yards = 0});
+  ship(model, {.at = {-25.0, 0.0, -6.5},
+               .heading = 175.0,
+               .length = 9.0,
+               .mast_height = 10.3,
+               .masts = 1,
+               .yards = 0});
 
   // Bollards and the lines made fast to them.
   model.paint(k_iron);

@@ -76,7 +76,7 @@ void add_tower(Modeller& model) {
   pole(model, k_foot + glm::dvec3(0.0, 19.5, 0.0), k_foot + glm::dvec3(0.0, 21.2, 0.0), 0.03);
 }
 
-/// The keeper's house: walls, a gabled roof, a chimney, a fence.
+/// The keeper's house: walls, a gabled roof, a chimney.
 void add_house(Modeller& model) {
   const glm::dvec3 at = k_foot + glm::dvec3(-5.4, -0.5, 2.2);
   model.paint({0.6f, 0.57f, 0.52f});
