@@ -176,12 +176,18 @@ Subject make_subject(const Options& options) {
   subject.view = {subject.scene.cameras[0], subject.scene.lights, subject.scene.medium};
   choose(choices.of_view, subject.view);
   subject.view.surroundings = subject.scene.surroundings;
-  // A window is to be looked at: there it is fitted where nothing says what it is.
-  const bool is_for_looks = options.command == "view" && !options.get("ambient") &&
-                            subject.view.surroundings.ambient == glm::vec3(0.0f);
-  if (is_for_looks || options.get("ambient") == std::string(k_fitted))
-    subject.view.surroundings.ambient =
-        scene::fitted_ambient(subject.scene.geometry, subject.view.lights, subject.view.medium);
+  glm::vec3& ambient = subject.view.surroundings.ambient;
+  if (options.get("ambient") == std::string(k_fitted)) {
+    ambient = scene::fitted_ambient(subject.scene.geometry, subject.view.lights, subject.view.medium);
+  } else if (options.command == "view" && !options.get("ambient") && ambient == glm::vec3(0.0f) &&
+             subject.scene.exposure) {
+    // A window is to be looked at: what no light reaches is dim there, not black. What light there is may
+    // lie outside of a room: no more than a part of what the exposure shows as white.
+    constexpr float k_dim = 0.03f;
+    ambient = scene::fitted_ambient(subject.scene.geometry, subject.view.lights, subject.view.medium);
+    const float brightest = std::max({ambient.r, ambient.g, ambient.b, 1e-30f}) * *subject.scene.exposure;
+    ambient *= std::min(1.0f, k_dim / brightest);
+  }
   subject.exposure = subject.scene.exposure;
   if (const auto path = options.get("path")) {
     subject.path = scene::load_path(*path, subject.view);

@@ -300,8 +300,8 @@ std::span<const Field<Surroundings>> fields() {
       member_field<&Surroundings::ambient>(
           {"", "ambient", colour, "R,G,B", "ambient",
            "radiance from all sides that surfaces reflect, in lieu of light that is scattered more than once",
-           "W/(m2 sr)", "as an option also auto: fitted to scene, lights and medium", "0, in view auto",
-           k_intensity}),
+           "W/(m2 sr)", "as an option also auto: fitted to scene, lights and medium",
+           "0; in view dim, where the exposure is known", k_intensity}),
       member_field<&Surroundings::background>({"", "background", colour, "R,G,B", "background",
                                                "radiance beyond all surfaces, seen through the medium",
                                                "W/(m2 sr)", "", "0", k_intensity}),
