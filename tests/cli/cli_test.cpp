@@ -1050,13 +1050,14 @@ TEST_F(Compare, DebugAddsPicturesOfTheGrid) {
     EXPECT_EQ(before.size, glm::ivec2(i == 0 ? 64 : 48, 128));
     EXPECT_EQ(after.size, before.size);
     EXPECT_EQ(images.at("shadowed_samples").size, glm::ivec2(32, 32));
-    // Where no sample is shadowed nothing changes, and the other way round.
+    // Where no sample is shadowed nothing changes. (Where one is, it may be one that the surface itself
+    // hides.)
     ASSERT_EQ(images.at("changes").size, glm::ivec2(32, 32));
     int changing = 0;
     for (std::size_t pixel = 0; pixel < 32 * 32; ++pixel) {
-      const bool changes = images.at("changes").channels.at("Y")[pixel] > 0.0f;
-      EXPECT_EQ(changes, images.at("shadowed_samples").channels.at("Y")[pixel] > 0.0f) << pixel;
-      changing += changes ? 1 : 0;
+      if (images.at("changes").channels.at("Y")[pixel] == 0.0f) continue;
+      EXPECT_GT(images.at("shadowed_samples").channels.at("Y")[pixel], 0.0f) << pixel;
+      ++changing;
     }
     EXPECT_GT(changing, 0);
     for (std::size_t pixel = 0; pixel < before.channels.at("Y").size(); ++pixel)
