@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "app/memory.h"
+#include "frame/option.h"
 #include "quality/light_texture.h"
 #include "quality/results.h"
 #include "scene/builtin.h"
@@ -61,9 +62,7 @@ bool is_shot(const std::filesystem::path& file) {
 scene::Looks looks(const Options& options) {
   const std::string text = options.get("looks").value_or(
       options.command == "render" || options.command == "view" ? "textured" : "flat");
-  if (text == "flat") return scene::Looks::flat;
-  if (text == "textured") return scene::Looks::textured;
-  throw usage("--looks", fmt::format("'{}' is unknown", text), "use flat or textured");
+  return static_cast<scene::Looks>(frame::parse_word("--looks", text, {{"flat"}, {"textured"}}));
 }
 
 scene::Scene load_scene(const Options& options) {

@@ -71,7 +71,7 @@ struct Images {
     if (quality::is_read("shadow-map", {&volume, 1}, {&surface, 1}))
       configuration["shadow-map"] = fmt::format("{}", shadow_map);
     configuration["exposure"] = fmt::format("{}", *exposure);
-    configuration["tone-map"] = scene::tone_map_names()[static_cast<std::size_t>(subject.scene.tone_map)];
+    configuration["tone-map"] = scene::tone_map_name(subject.scene.tone_map);
     for (const char* name : {"albedo", "looks", "triangles"})
       if (const auto text = options.get(name)) configuration[name] = *text;
     configuration["version"] = quality::version();

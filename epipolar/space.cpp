@@ -86,8 +86,7 @@ std::vector<double> reach_of_planes(const scene::CameraFrame& camera, glm::ivec2
   constexpr int k_bins = 256, k_points = 1024;
   std::vector<double> reach(k_bins, 0.0);
   const auto include = [&](double x, double y) {
-    const glm::dvec3 point =
-        camera.forward + x * camera.half_width * camera.right + y * camera.half_height * camera.up;
+    const glm::dvec3 point = scene::image_ray(camera, {x, y});
     const double turn =
         std::atan2(glm::dot(point, axes.f), glm::dot(point, axes.u)) / (2.0 * std::numbers::pi);
     const auto bin = static_cast<std::size_t>((turn - std::floor(turn)) * k_bins) % k_bins;

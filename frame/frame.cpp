@@ -232,7 +232,7 @@ void Frame::add_surroundings(const scene::Surroundings& surroundings) {
   const Looks* looks = resources_.scene().looks();
   const bool has_textures = looks && looks->has_textures();
   if (!surroundings_)
-    surroundings_.emplace(k_surroundings_frag, std::array{gpu::Constant(0, has_textures)}, gpu::Blend::add);
+    surroundings_.emplace(k_surroundings_frag, std::array{gpu::Constant(1, has_textures)}, gpu::Blend::add);
   resources_.scene().bind_samplers();
   gbuffer_->triangles().bind_sampler(shaders::k_triangle_unit);
   gbuffer_->surfaces().bind_sampler(shaders::k_surface_unit);

@@ -33,17 +33,10 @@ std::vector<Cover> covers(int size) {
   return result;
 }
 
-std::array<float, 256> linear_of_bytes() {
-  std::array<float, 256> table{};
-  for (std::size_t i = 0; i < table.size(); ++i)
-    table[i] = static_cast<float>(scene::linear_from_srgb(static_cast<double>(i) / 255.0));
-  return table;
-}
-
 }  // namespace
 
 scene::TextureImage next_level(const scene::TextureImage& image) {
-  static const std::array<float, 256> linear = linear_of_bytes();
+  const std::array<double, 256>& linear = scene::linear_of_bytes();
   static const scene::SrgbEncoder encode;
   const std::vector<Cover> columns = covers(image.size.x), rows = covers(image.size.y);
   const auto width = static_cast<std::size_t>(image.size.x);
@@ -57,7 +50,7 @@ scene::TextureImage next_level(const scene::TextureImage& image) {
         for (std::size_t x = 0; x < column.count; ++x) {
           const glm::u8vec4 texel = image.texels[(row.first + y) * width + column.first + x];
           sum += row.weights[y] * column.weights[x] *
-                 glm::vec4(linear[texel.r], linear[texel.g], linear[texel.b], texel.a);
+                 glm::vec4(glm::vec3(linear[texel.r], linear[texel.g], linear[texel.b]), texel.a);
         }
       }
       level.texels.emplace_back(encode(sum.r), encode(sum.g), encode(sum.b),

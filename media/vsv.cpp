@@ -74,7 +74,7 @@ const Vsv::Programs& Vsv::load(const gpu::Context& context, const Variant& varia
   if (const auto found = programs_.find(variant); found != programs_.end()) return found->second;
   Programs programs;
   const epipolar::Resolution& resolution = volume_.grid().resolution();
-  const auto grid = epipolar::resolution_constants(resolution);
+  const auto grid = volume_.reader_constants();
   const gpu::Constant phase(3, variant.phase), channels(4, variant.channels);
   const gpu::Constant whole_voxels(8, options_.volume.populate == epipolar::Populate::conservative);
   const gpu::Constant query(17, static_cast<std::uint32_t>(options_.volume.query));
@@ -86,8 +86,7 @@ const Vsv::Programs& Vsv::load(const gpu::Context& context, const Variant& varia
     table_ = gpu::Buffer(bytes);
     table_texels_ = {context.limits(), table_, gpu::Format::rgba32f, what};
   };
-  const gpu::Constant blocks = volume_.reader_constants()[3];
-  programs.of_ray = {grid[0], grid[1], grid[2], blocks, phase, whole_voxels, layer, looks_away, query};
+  programs.of_ray = {grid[0], grid[1], grid[2], grid[3], phase, whole_voxels, layer, looks_away, query};
   const auto pass = [&](std::span<const std::uint32_t> fragment, std::initializer_list<gpu::Constant> more) {
     std::vector<gpu::Constant> constants = programs.of_ray;
     constants.insert(constants.end(), more);
@@ -246,9 +245,7 @@ std::vector<frame::DebugImage> Vsv::debug_images(const frame::FrameInputs& input
 std::optional<frame::DebugImage> Vsv::debug_slice(const scene::View& view, glm::dvec2 place) {
   if (!last_ || options_.volume.populate == epipolar::Populate::screen_space) return {};
   const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
-  const glm::dvec3 ray = camera.forward +
-                         (2.0 * place.x / view.size.x - 1.0) * camera.half_width * camera.right +
-                         (1.0 - 2.0 * place.y / view.size.y) * camera.half_height * camera.up;
+  const glm::dvec3 ray = scene::image_ray(camera, view.size, place);
   return epipolar::debug_slice(volume_, glm::vec3(glm::normalize(ray)));
 }
 

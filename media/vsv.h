@@ -68,8 +68,8 @@ class Vsv : public frame::Airlight {
   /// "changes" of visibility, and "reads" of 128 bits, by which they are found; "scanned_bytes", what a scan
   /// of first shadowed cells writes.
   std::map<std::string, double> counters(const frame::FrameInputs& inputs) override;
-  /// Those of epipolar::debug_images, and where pixels are asked
-  /// "changes": how often visibility changes along each view ray, of 64.
+  /// Those of epipolar::debug_images, and where pixels are asked "changes": how often visibility changes
+  /// along each view ray, of 64.
   std::vector<frame::DebugImage> debug_images(const frame::FrameInputs& inputs) override;
   /// Not of Populate::screen_space.
   std::optional<frame::DebugImage> debug_slice(const scene::View& view, glm::dvec2 place) override;
@@ -93,9 +93,9 @@ class Vsv : public frame::Airlight {
     frame::ScreenPass integrate;
     std::vector<gpu::Constant> of_ray;  ///< of shaders/media/vsv_ray.glsl
   };
-  /// Those of a variant, and a table with room for it. Lights of a frame may be of different ones, in turns.
   /// What vsv_count.frag finds along each view ray.
   gpu::Texture count(const frame::FrameInputs& inputs) const;
+  /// Those of a variant, and a table with room for it. Lights of a frame may be of different ones, in turns.
   const Programs& load(const gpu::Context& context, const Variant& variant);
 
   VsvOptions options_;

@@ -6,23 +6,17 @@
 #include "quality/flip.h"
 
 namespace airlight::quality {
-namespace {
-
-std::span<const float> floats(const std::vector<glm::vec3>& image) {
-  return {image.empty() ? nullptr : &image[0].x, 3 * image.size()};
-}
-
-}  // namespace
 
 Errors judge(const frame::FrameImages& images, const Truth& truth) {
   Errors errors;
-  errors.airlight = airlight_error(floats(images.airlight), floats(truth.airlight), truth.figures.floor);
+  errors.airlight =
+      airlight_error(channels_of(images.airlight), channels_of(truth.airlight), truth.figures.floor);
   constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
   errors.flip = errors.airlight.is_dark
                     ? k_none
                     : hdr_flip(images.airlight, truth.airlight, images.size, truth.figures.floor);
-  errors.same_surface = same_surface_error(floats(images.airlight), images.distance, floats(truth.airlight),
-                                           truth.distance, truth.figures.floor);
+  errors.same_surface = same_surface_error(channels_of(images.airlight), images.distance,
+                                           channels_of(truth.airlight), truth.distance, truth.figures.floor);
   for (std::size_t light = 0; light < truth.verdicts.size(); ++light) {
     if (images.is_skipped[light]) continue;  // whether it is seen changes nothing
     const SurfaceError error = surface_error(images.visibility[light], truth.verdicts[light]);
@@ -34,8 +28,8 @@ Errors judge(const frame::FrameImages& images, const Truth& truth) {
 }
 
 ErrorImage error_image(const frame::FrameImages& images, const Truth& truth) {
-  return error_image(floats(images.airlight), images.distance, floats(truth.airlight), truth.distance,
-                     truth.figures.floor);
+  return error_image(channels_of(images.airlight), images.distance, channels_of(truth.airlight),
+                     truth.distance, truth.figures.floor);
 }
 
 }  // namespace airlight::quality

@@ -142,6 +142,13 @@ Error Choice<MethodType>::refusal_error(const frame::Refusal& refusal) const {
 }
 
 template <typename MethodType>
+std::string Choice<MethodType>::words() const {
+  std::string words = fmt::format("{}\n", method->name);
+  for (const auto& [name, value] : values()) words += fmt::format(" {}={}\n", name, frame::text_of(value));
+  return words;
+}
+
+template <typename MethodType>
 void Choice<MethodType>::fit(std::span<const scene::View> views) {
   if (views.size() == 1) return fit(views[0]);
   const std::any given = options;

@@ -52,6 +52,9 @@ struct Choice {
     return values;
   }
 
+  /// The method and all of its options, a line each.
+  std::string words() const;
+
   /// Fits the options to a view. @throws scene::Error (usage) where the method cannot show it
   void fit(const scene::View& view) {
     if (const auto refusal = method->refusal(options, view)) throw refusal_error(*refusal);

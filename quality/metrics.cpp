@@ -43,6 +43,10 @@ bool is_same_surface(float distance, float reference_distance) {
 
 }  // namespace
 
+std::span<const float> channels_of(const std::vector<glm::vec3>& image) {
+  return {image.empty() ? nullptr : &image[0].x, 3 * image.size()};
+}
+
 AirlightError airlight_error(std::span<const float> x, std::span<const float> r, double floor) {
   require_same_length(x.size(), r.size());
   require_finite(x, "image to judge");

@@ -5,9 +5,14 @@
 #include <span>
 #include <vector>
 
+#include <glm/glm.hpp>
+
 #include "reference/surface_judge.h"
 
 namespace airlight::quality {
+
+/// An image's channels, one after the other.
+std::span<const float> channels_of(const std::vector<glm::vec3>& image);
 
 /// How far an image is from the reference, over all channels of all pixels. See `airlight_error`.
 ///

@@ -30,14 +30,6 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t k_group = 8;                     ///< settings that are timed in turns
 constexpr std::int64_t k_group_bytes = 1'000'000'000;  ///< of their methods; more are not added to a group
 
-template <typename MethodType>
-std::string words_of(const Choice<MethodType>& choice) {
-  std::string words = fmt::format("{}\n", choice.method->name);
-  for (const auto& [name, value] : choice.values())
-    words += fmt::format(" {}={}\n", name, frame::text_of(value));
-  return words;
-}
-
 double mean(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
@@ -323,7 +315,7 @@ std::string hash_of_subject(const scene::Geometry& geometry, std::span<const sce
 
 std::string key_of(const std::string& subject_hash, const Setting& setting) {
   return hash_of(fmt::format("subject {}\nvolume {}surface {}shadow map {}\n", subject_hash,
-                             words_of(setting.volume), words_of(setting.surface),
+                             setting.volume.words(), setting.surface.words(),
                              setting.shadow_map ? fmt::format("{}", *setting.shadow_map) : "unread"));
 }
 

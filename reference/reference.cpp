@@ -44,18 +44,28 @@ Reference::State::State(const scene::Geometry& geometry, const scene::View& v, s
       sun(scene::is_sun(light) ? std::optional(glm::normalize(light.towards)) : std::nullopt),
       origin(sun ? camera.eye : light.position),
       eye(camera.eye - origin),
-      visibility(triangles, origin, camera.eye, sun),
-      // The tangent size of a pixel at the image's centre stands for its angle.
-      quarter_pixel(0.25 * 2.0 * camera.half_height / view.size.y) {
+      visibility(triangles, origin, camera.eye, sun) {
+  resize(view.size);
   if (view.medium.top) top = *view.medium.top - origin.y;
   if (!sun && is_far(box, camera.eye, glm::length(eye)))
     around_eye.emplace(triangles, camera.eye, camera.eye, scene::direction_to(light, camera.eye));
   if (!sun && light.texture) light_texture.emplace(*light.texture);
 }
 
+void Reference::State::resize(glm::ivec2 image_size) {
+  view.size = image_size;
+  camera = scene::camera_frame(view.camera, image_size);
+  // The tangent size of a pixel at the image's centre stands for its angle.
+  quarter_pixel = 0.25 * 2.0 * camera.half_height / image_size.y;
+}
+
 Reference::Reference(const scene::Geometry& geometry, const scene::View& view, std::size_t light_index) {
   scene::validate(view);
   state_ = std::make_unique<State>(geometry, view, light_index);
+}
+
+void Reference::resize(glm::ivec2 image_size) {
+  state_->resize(image_size);
 }
 
 Reference::~Reference() = default;

@@ -51,6 +51,10 @@ class Reference {
   Reference(Reference&&) noexcept;
   Reference& operator=(Reference&&) noexcept;
 
+  /// From now on images are of this size [pixels]; nothing is built anew. @throws scene::Error as
+  /// camera_frame
+  void resize(glm::ivec2 image_size);
+
   /// First hits of the rays through pixel centres, and whether each is lit.
   SurfaceImage surfaces(const Progress& progress = {}) const;
 

@@ -27,10 +27,11 @@ struct Reference::State {
   Visibility visibility;          ///< of `triangles`
   /// The same around the eye, where the light is so far that single precision around it loses the scene.
   std::optional<Visibility> around_eye;
-  double quarter_pixel;                      ///< the smallest α [rad]
+  double quarter_pixel = 0.0;                ///< the smallest α [rad]
   std::optional<LightLookup> light_texture;  ///< where the light has one
 
   State(const scene::Geometry& geometry, const scene::View& view, std::size_t light_index);
+  void resize(glm::ivec2 image_size);
 
   /// Unit direction through a point of the image [pixels]; centres are at half-integers.
   glm::dvec3 direction(const glm::dvec2& point) const;

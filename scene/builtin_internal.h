@@ -73,6 +73,11 @@ class Modeller {
             const std::function<double(double, double)>& height);
 
  private:
+  /// A closed solid of rings of vertices, one after the other, with fans at its ends.
+  /// @param at where a ring's vertex lies
+  void tube(std::size_t rings, std::uint32_t sides,
+            const std::function<glm::dvec3(std::size_t ring, double angle)>& at);
+
   Geometry& geometry_;
 };
 

@@ -11,9 +11,7 @@ namespace {
 
 /// Linear.
 glm::dvec3 mean_colour(const TextureImage& texture) {
-  std::array<double, 256> linear{};
-  for (std::size_t i = 0; i < linear.size(); ++i)
-    linear[i] = linear_from_srgb(static_cast<double>(i) / 255.0);
+  const std::array<double, 256>& linear = linear_of_bytes();
   glm::dvec3 sum(0.0);
   for (const glm::u8vec4& texel : texture.texels)
     sum += glm::dvec3(linear[texel.r], linear[texel.g], linear[texel.b]);

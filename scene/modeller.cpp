@@ -71,14 +71,11 @@ void Modeller::sphere(glm::dvec3 centre, double radius, std::uint32_t cuts) {
   }
 }
 
-void Modeller::turned(glm::dvec3 foot, std::span<const glm::dvec2> profile, std::uint32_t sides) {
+void Modeller::tube(std::size_t rings, std::uint32_t sides,
+                    const std::function<glm::dvec3(std::size_t ring, double angle)>& at) {
   std::vector<std::uint32_t> first(sides), below(sides), ring(sides);
-  for (std::size_t i = 0; i < profile.size(); ++i) {
-    for (std::uint32_t k = 0; k < sides; ++k) {
-      const double angle = 2.0 * std::numbers::pi * k / sides;
-      ring[k] = vertex(
-          foot + glm::dvec3(profile[i].x * std::sin(angle), profile[i].y, profile[i].x * std::cos(angle)));
-    }
+  for (std::size_t i = 0; i < rings; ++i) {
+    for (std::uint32_t k = 0; k < sides; ++k) ring[k] = vertex(at(i, 2.0 * std::numbers::pi * k / sides));
     for (std::uint32_t k = 0; k < sides && i > 0; ++k)
       quad(below[k], below[(k + 1) % sides], ring[(k + 1) % sides], ring[k]);
     if (i == 0) first = ring;
@@ -90,29 +87,28 @@ void Modeller::turned(glm::dvec3 foot, std::span<const glm::dvec2> profile, std:
   }
 }
 
+void Modeller::turned(glm::dvec3 foot, std::span<const glm::dvec2> profile, std::uint32_t sides) {
+  tube(profile.size(), sides, [&](std::size_t i, double angle) {
+    return foot + glm::dvec3(profile[i].x * std::sin(angle), profile[i].y, profile[i].x * std::cos(angle));
+  });
+}
+
 void Modeller::rod(std::span<const glm::dvec4> path, std::uint32_t sides) {
-  const auto at = [&](std::size_t i) { return glm::dvec3(path[i]); };
-  std::vector<std::uint32_t> first(sides), below(sides), ring(sides);
-  glm::dvec3 side(0.0);
+  const auto centre = [&](std::size_t i) { return glm::dvec3(path[i]); };
+  std::vector<std::array<glm::dvec3, 2>> axes;  // across the rod, at each point
   for (std::size_t i = 0; i < path.size(); ++i) {
-    const glm::dvec3 along = glm::normalize(at(std::min(i + 1, path.size() - 1)) - at(i > 0 ? i - 1 : 0));
+    const glm::dvec3 along =
+        glm::normalize(centre(std::min(i + 1, path.size() - 1)) - centre(i > 0 ? i - 1 : 0));
     // Carried along, so that the rod is not twisted.
-    if (i == 0) side = std::abs(along.y) < 0.9 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0);
+    glm::dvec3 side = i > 0                     ? axes.back()[0]
+                      : std::abs(along.y) < 0.9 ? glm::dvec3(0.0, 1.0, 0.0)
+                                                : glm::dvec3(1.0, 0.0, 0.0);
     side = glm::normalize(side - glm::dot(side, along) * along);
-    const glm::dvec3 other = glm::cross(along, side);
-    for (std::uint32_t k = 0; k < sides; ++k) {
-      const double angle = 2.0 * std::numbers::pi * k / sides;
-      ring[k] = vertex(at(i) + path[i].w * (std::cos(angle) * side + std::sin(angle) * other));
-    }
-    for (std::uint32_t k = 0; k < sides && i > 0; ++k)
-      quad(below[k], below[(k + 1) % sides], ring[(k + 1) % sides], ring[k]);
-    if (i == 0) first = ring;
-    below = ring;
+    axes.push_back({side, glm::cross(along, side)});
   }
-  for (std::uint32_t k = 1; k + 1 < sides; ++k) {
-    triangle(first[0], first[k + 1], first[k]);
-    triangle(ring[0], ring[k], ring[k + 1]);
-  }
+  tube(path.size(), sides, [&](std::size_t i, double angle) {
+    return centre(i) + path[i].w * (std::cos(angle) * axes[i][0] + std::sin(angle) * axes[i][1]);
+  });
 }
 
 void Modeller::slab(std::span<const double> x, std::span<const double> z, double bottom,

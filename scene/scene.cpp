@@ -118,11 +118,18 @@ glm::dvec3 unit(glm::dvec3 v) {
   return glm::normalize(v / largest(v));
 }
 
+glm::dvec3 image_ray(const CameraFrame& camera, glm::dvec2 place) {
+  return camera.forward + place.x * camera.half_width * camera.right +
+         place.y * camera.half_height * camera.up;
+}
+
+glm::dvec3 image_ray(const CameraFrame& camera, glm::dvec2 image_size, glm::dvec2 point) {
+  return image_ray(camera, {2.0 * point.x / image_size.x - 1.0, 1.0 - 2.0 * point.y / image_size.y});
+}
+
 std::array<glm::dvec3, 4> corner_rays(const CameraFrame& camera) {
-  const auto ray = [&](double x, double y) {
-    return camera.forward + x * camera.half_width * camera.right + y * camera.half_height * camera.up;
-  };
-  return {ray(-1, -1), ray(1, -1), ray(1, 1), ray(-1, 1)};
+  return {image_ray(camera, {-1, -1}), image_ray(camera, {1, -1}), image_ray(camera, {1, 1}),
+          image_ray(camera, {-1, 1})};
 }
 
 std::span<const std::string_view> phase_names() {
@@ -134,6 +141,10 @@ std::span<const std::string_view> phase_names() {
 std::span<const std::string_view> tone_map_names() {
   static constexpr auto k_names = std::to_array<std::string_view>({"none", "reinhard", "aces", "agx"});
   return k_names;
+}
+
+std::string tone_map_name(ToneMap tone_map) {
+  return std::string(tone_map_names()[static_cast<std::size_t>(tone_map)]);
 }
 
 std::string phase_name(PhaseFunction phase) {

@@ -109,6 +109,13 @@ struct CameraFrame {
 /// inside (0°, 180°), a value is not finite, or the image has no pixels.
 CameraFrame camera_frame(const Camera& camera, glm::ivec2 image_size);
 
+/// The direction, not of unit length, of the view ray through a place of an image.
+/// @param place from (−1, −1), the lower left corner, to (1, 1)
+glm::dvec3 image_ray(const CameraFrame& camera, glm::dvec2 place);
+
+/// The same of a point of it in pixels, (0, 0) being the upper left corner.
+glm::dvec3 image_ray(const CameraFrame& camera, glm::dvec2 image_size, glm::dvec2 point);
+
 /// Directions, not of unit length, through the corners of an image, in their order around it.
 std::array<glm::dvec3, 4> corner_rays(const CameraFrame& camera);
 
@@ -217,6 +224,9 @@ enum class ToneMap { none, reinhard, aces, agx };
 
 /// The names that users know them by, in their order.
 std::span<const std::string_view> tone_map_names();
+
+/// The one of these.
+std::string tone_map_name(ToneMap tone_map);
 
 /// What an importer dropped or could not represent: shown to the user, kept with the results.
 struct ImportReport {

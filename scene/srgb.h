@@ -12,6 +12,9 @@ double srgb_from_linear(double linear);
 /// Its inverse.
 double linear_from_srgb(double encoded);
 
+/// That of each 8-bit value, for tables.
+const std::array<double, 256>& linear_of_bytes();
+
 /// Encodes linear values as 8-bit sRGB, rounded to the nearest, by a table.
 class SrgbEncoder {
  public:

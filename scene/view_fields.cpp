@@ -324,15 +324,14 @@ std::span<const Field<Scene>> fields() {
       member_field<&Scene::exposure>(
           {"", "exposure", number, "E", "exposure", "of PNG images: radiance is multiplied by it", "", "",
            "the scene's; for a file, the 95th percentile maps to 0.8", k_positive}),
-      Field<Scene>{{"", "tone-map", word, "NAME", "tone map",
-                    "of PNG images: how radiance brighter than a display is shown", "", "", "none", k_any,
-                    tone_map_names()},
-                   [](Scene& scene, const FieldValue& value) {
-                     scene.tone_map = static_cast<ToneMap>(place_of_word(tone_map_names(), value));
-                   },
-                   [](const Scene& scene) -> std::optional<FieldValue> {
-                     return std::string(tone_map_names()[static_cast<std::size_t>(scene.tone_map)]);
-                   }},
+      Field<Scene>{
+          {"", "tone-map", word, "NAME", "tone map",
+           "of PNG images: how radiance brighter than a display is shown", "", "", "none", k_any,
+           tone_map_names()},
+          [](Scene& scene, const FieldValue& value) {
+            scene.tone_map = static_cast<ToneMap>(place_of_word(tone_map_names(), value));
+          },
+          [](const Scene& scene) -> std::optional<FieldValue> { return tone_map_name(scene.tone_map); }},
   };
   return table;
 }

@@ -19,8 +19,7 @@ namespace airlight::shaders {
 
 using uint = std::uint32_t;
 using glm::abs, glm::ceil, glm::clamp, glm::cross, glm::dot, glm::exp, glm::floor, glm::length, glm::log,
-    glm::log2, glm::max, glm::min, glm::mix, glm::normalize, glm::packSnorm2x16, glm::sqrt,
-    glm::unpackSnorm2x16;
+    glm::log2, glm::max, glm::min, glm::mix, glm::normalize, glm::sqrt;
 using glm::dvec3, glm::ivec2, glm::ivec3, glm::uvec2, glm::uvec3, glm::uvec4, glm::vec2, glm::vec3, glm::vec4;
 
 /// A number that knows what it counts: in GLSL a float, here a type of its own that has the operations that

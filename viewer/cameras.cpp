@@ -74,10 +74,8 @@ glm::dvec3 project(const scene::CameraFrame& camera, glm::dvec2 image_size, glm:
   return {0.5 * (x + 1.0) * image_size.x, 0.5 * (1.0 - y) * image_size.y, depth};
 }
 
-glm::dvec3 ray_through(const scene::CameraFrame& camera, glm::dvec2 image_size, glm::dvec2 place) {
-  const double x = (2.0 * place.x / image_size.x - 1.0) * camera.half_width;
-  const double y = (1.0 - 2.0 * place.y / image_size.y) * camera.half_height;
-  return camera.forward + x * camera.right + y * camera.up;
+glm::dvec3 project(const scene::CameraFrame& camera, glm::dvec2 image_size, const scene::Light& light) {
+  return project(camera, image_size, scene::is_sun(light) ? camera.eye + light.towards : light.position);
 }
 
 }  // namespace airlight::viewer

@@ -28,7 +28,7 @@ void fly(scene::Camera& camera, glm::dvec3 way);
 /// plane through the eye: not above 0 for what is not seen [m].
 glm::dvec3 project(const scene::CameraFrame& camera, glm::dvec2 image_size, glm::dvec3 point);
 
-/// The direction, not of unit length, of the view ray through a place of the image, in pixels.
-glm::dvec3 ray_through(const scene::CameraFrame& camera, glm::dvec2 image_size, glm::dvec2 place);
+/// The same of a light; of a sun, of its direction.
+glm::dvec3 project(const scene::CameraFrame& camera, glm::dvec2 image_size, const scene::Light& light);
 
 }  // namespace airlight::viewer

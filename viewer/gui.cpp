@@ -1,6 +1,7 @@
 #include "viewer/gui.h"
 
 #include <algorithm>
+#include <utility>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>

@@ -35,14 +35,6 @@ void shrink(quality::Choice<MethodType>& choice, double part) {
   }
 }
 
-template <typename MethodType>
-std::string text_of(const quality::Choice<MethodType>& choice) {
-  std::string text(choice.method->name);
-  for (const auto& [name, value] : choice.values())
-    text += fmt::format(":{}={}", name, frame::text_of(value));
-  return text;
-}
-
 }  // namespace
 
 Ladder::Ladder(gpu::Context& context, const scene::Geometry& geometry,
@@ -50,8 +42,8 @@ Ladder::Ladder(gpu::Context& context, const scene::Geometry& geometry,
     : context_(context), geometry_(geometry), scene_(std::move(scene)) {}
 
 void Ladder::show(const Shown& shown) {
-  const bool is_other = !shown_ || text_of(shown_->volume) != text_of(shown.volume) ||
-                        text_of(shown_->surface) != text_of(shown.surface) ||
+  const bool is_other = !shown_ || shown_->volume.words() != shown.volume.words() ||
+                        shown_->surface.words() != shown.surface.words() ||
                         shown_->shadow_map != shown.shadow_map || shown_->view.size != shown.view.size;
   shown_ = shown;
   if (is_other)
@@ -80,14 +72,14 @@ const frame::Frame& Ladder::draw(std::size_t rung, gpu::StageTimer& timer, frame
   const Shown drawn = shown(rung);
   OfRung& of_rung = of_rung_[rung];
   if (!of_rung.frame) of_rung.frame.emplace(context_, geometry_, drawn.shadow_map, scene_);
-  const std::string text = text_of(drawn.volume) + text_of(drawn.surface);
-  auto made = of_rung.methods.find(text);
+  const std::string words = drawn.volume.words() + drawn.surface.words();
+  auto made = of_rung.methods.find(words);
   const bool compiles = made == of_rung.methods.end();
   if (compiles) {
     if (of_rung.methods.size() == k_kept_methods) of_rung.methods.clear();
     Made methods{drawn.volume.method->make(context_, drawn.volume.options),
                  drawn.surface.method->make(context_, drawn.surface.options)};
-    made = of_rung.methods.emplace(text, std::move(methods)).first;
+    made = of_rung.methods.emplace(words, std::move(methods)).first;
   }
   of_rung.made = &made->second;
   const auto start = std::chrono::steady_clock::now();
@@ -100,33 +92,38 @@ const frame::Frame& Ladder::draw(std::size_t rung, gpu::StageTimer& timer, frame
   return *of_rung.frame;
 }
 
-std::vector<frame::DebugImage> Ladder::inspect(std::size_t rung) {
+template <typename Look>
+void Ladder::look_into(std::size_t rung, const Look& look) {
   const Shown drawn = shown(rung);
   OfRung& of_rung = of_rung_[rung];
-  std::vector<frame::DebugImage> images;
-  quality::AirlightProbe probe(*of_rung.made->airlight, [&](const frame::FrameInputs& inputs) {
-    std::vector<frame::DebugImage> of_light = of_rung.made->airlight->debug_images(inputs);
-    if (inputs.light_index == 0) images = std::move(of_light);  // one light's are enough to look at
-  });
   gpu::StageTimer off(nullptr);
-  of_rung.frame->render(drawn.view, *of_rung.made->surface, probe, off);
-  // They may have cost it what it had.
+  look(*of_rung.made, [&](frame::SurfaceShadow& surface, frame::Airlight& airlight) {
+    of_rung.frame->render(drawn.view, surface, airlight, off);
+  });
+  // It may have cost the methods what they had, and the frame its image.
   of_rung.frame->render(drawn.view, *of_rung.made->surface, *of_rung.made->airlight, off);
   context_.finish();
+}
+
+std::vector<frame::DebugImage> Ladder::inspect(std::size_t rung) {
+  std::vector<frame::DebugImage> images;
+  look_into(rung, [&](const Made& made, const auto& render) {
+    quality::AirlightProbe probe(*made.airlight, [&](const frame::FrameInputs& inputs) {
+      std::vector<frame::DebugImage> of_light = made.airlight->debug_images(inputs);
+      if (inputs.light_index == 0) images = std::move(of_light);  // one light's are enough to look at
+    });
+    render(*made.surface, probe);
+  });
   return images;
 }
 
 frame::SurfacePoints Ladder::surface_points(std::size_t rung) {
-  const Shown drawn = shown(rung);
-  OfRung& of_rung = of_rung_[rung];
   frame::PointReader reader;
-  frame::NoAirlight no_airlight;
-  gpu::StageTimer off(nullptr);
-  of_rung.frame->render(drawn.view, reader, no_airlight, off);
-  frame::SurfacePoints points = reader.take_points();
-  of_rung.frame->render(drawn.view, *of_rung.made->surface, *of_rung.made->airlight, off);
-  context_.finish();
-  return points;
+  look_into(rung, [&](const Made&, const auto& render) {
+    frame::NoAirlight no_airlight;
+    render(reader, no_airlight);
+  });
+  return reader.take_points();
 }
 
 std::optional<double> Ladder::ms(std::size_t rung) const {

@@ -60,9 +60,8 @@ class Ladder {
   /// The picture as a rung draws it, methods fitted.
   Shown shown(std::size_t rung) const;
 
-  /// Of the methods that drew a rung last.
+  /// The method that drew a rung last.
   frame::Airlight& airlight(std::size_t rung) { return *of_rung_[rung].made->airlight; }
-  frame::SurfaceShadow& surface(std::size_t rung) { return *of_rung_[rung].made->surface; }
   std::int64_t bytes(std::size_t rung) const;  ///< on the GPU, the scene left out
 
  private:
@@ -85,6 +84,10 @@ class Ladder {
       frames = 0;
     }
   };
+
+  /// Draws a rung otherwise, and then as it is. @param look (made, render(surface, airlight))
+  template <typename Look>
+  void look_into(std::size_t rung, const Look& look);
 
   gpu::Context& context_;
   const scene::Geometry& geometry_;

@@ -1,6 +1,5 @@
 // The panels: controls made from the table of a view's fields and from the methods' descriptors.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -11,7 +10,6 @@
 #include <imgui_stdlib.h>
 
 #include "frame/option.h"
-#include "quality/light_texture.h"
 #include "scene/error.h"
 #include "scene/view_fields.h"
 #include "viewer/cameras.h"
@@ -97,10 +95,10 @@ double hour_of(glm::dvec3 towards) {
 }  // namespace
 
 template <typename Thing>
-void Viewer::edit_fields(Thing& thing, const std::string& prefix, const std::set<std::string>& without) {
+void Viewer::edit_fields(Thing& thing, const std::string& prefix) {
   for (const scene::Field<Thing>& field : scene::fields<Thing>()) {
     const std::string name(field.name);
-    if (without.contains(name) || (field.lack && field.lack(thing))) continue;
+    if (field.lack && field.lack(thing)) continue;
     std::optional<scene::FieldValue> value = field.get(thing);
     const std::string label = fmt::format("{}##{}{}", name, prefix, name);
     if (!value) {
@@ -249,11 +247,7 @@ void Viewer::beside_panel() {
     ImGui::RadioButton(names[i], &beside, i);
     gui_.note(fmt::format("beside={}", names[i]));
   }
-  if (beside != static_cast<int>(beside_)) {
-    beside_ = static_cast<Beside>(beside);
-    drawn_right_.reset();
-    is_settled_ = false;
-  }
+  set_beside(static_cast<Beside>(beside), layout_);
   if (beside_ == Beside::nothing) return;
   int layout = static_cast<int>(layout_);
   const char* layouts[] = {"left", "both", "difference"};
@@ -262,7 +256,7 @@ void Viewer::beside_panel() {
     ImGui::RadioButton(layouts[i], &layout, i);
     gui_.note(fmt::format("layout={}", layouts[i]));
   }
-  layout_ = static_cast<Layout>(layout);
+  set_beside(beside_, static_cast<Layout>(layout));
   if (layout_ == Layout::difference) {
     ImGui::SliderFloat("full colour", &difference_scale_, 1e-3f, 1.0f, "%.3f of white",
                        ImGuiSliderFlags_Logarithmic);
@@ -422,7 +416,7 @@ void Viewer::picture_panel() {
     gui_.note("exposure");
   }
   const auto names = scene::tone_map_names();
-  if (ImGui::BeginCombo("tone map", std::string(names[static_cast<std::size_t>(shown_.tone_map)]).c_str())) {
+  if (ImGui::BeginCombo("tone map", scene::tone_map_name(shown_.tone_map).c_str())) {
     for (std::size_t i = 0; i < names.size(); ++i) {
       if (ImGui::Selectable(std::string(names[i]).c_str())) shown_.tone_map = static_cast<scene::ToneMap>(i);
       gui_.note(fmt::format("tone-map={}", names[i]));
@@ -433,8 +427,7 @@ void Viewer::picture_panel() {
   edit_fields(shown_.view.surroundings, "surroundings-");
   if (ImGui::Button("copy as command")) {
     ImGui::SetClipboardText(command().c_str());
-    copied_ = command();
-    say("copied: " + copied_);
+    say("copied: " + command());
   }
   gui_.note("copy");
   ImGui::SameLine();
@@ -449,11 +442,12 @@ void Viewer::picture_panel() {
   if (ImGui::BeginCombo("over it", over.c_str())) {
     if (ImGui::Selectable("nothing")) inspected_.clear();
     // What a method has to show is known when it has been asked.
-    if (inspections_.empty() && left_.is_ready(0) && is_settled_) inspections_ = left_.inspect(0);
-    for (const frame::DebugImage& image : inspections_) {
-      if (ImGui::Selectable(image.name.c_str())) inspected_ = image.name;
-      gui_.note("over=" + image.name);
-      if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", image.caption.c_str());
+    if (inspections_ || (left_.is_ready(0) && is_settled_)) {
+      for (const frame::DebugImage& image : inspections()) {
+        if (ImGui::Selectable(image.name.c_str())) inspected_ = image.name;
+        gui_.note("over=" + image.name);
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", image.caption.c_str());
+      }
     }
     if (ImGui::Selectable(k_undecided)) inspected_ = k_undecided;
     gui_.note(std::string("over=") + k_undecided);
@@ -503,9 +497,9 @@ void Viewer::profiler() {
   if (ImGui::Begin("Profiler", &has_profiler_)) {
     std::set<std::string> names;
     double longest = 1.0;
-    for (const Stages& stages : history_) {
+    for (const std::map<std::string, double>& stages : history_) {
       double sum = 0.0;
-      for (const auto& [name, ms] : stages.ms) {
+      for (const auto& [name, ms] : stages) {
         names.insert(name);
         sum += ms;
       }
@@ -520,9 +514,9 @@ void Viewer::profiler() {
       float bottom = from.y + height;
       std::size_t colour = 0;
       for (const std::string& name : names) {
-        const auto found = history_[i].ms.find(name);
+        const auto found = history_[i].find(name);
         const float part =
-            found == history_[i].ms.end() ? 0.0f : static_cast<float>(found->second / longest) * height;
+            found == history_[i].end() ? 0.0f : static_cast<float>(found->second / longest) * height;
         const float left = from.x + bar * static_cast<float>(i);
         list.AddRectFilled({left, bottom - part}, {left + bar, bottom}, stage_colour(colour++));
         bottom -= part;
@@ -532,7 +526,7 @@ void Viewer::profiler() {
     std::size_t colour = 0;
     for (const std::string& name : names) {
       double last = 0.0;
-      if (!history_.empty() && history_.back().ms.contains(name)) last = history_.back().ms.at(name);
+      if (!history_.empty() && history_.back().contains(name)) last = history_.back().at(name);
       ImGui::PushStyleColor(ImGuiCol_Text, stage_colour(colour++));
       ImGui::Text("%-16s %7.2f ms", name.c_str(), last);
       ImGui::PopStyleColor();
@@ -571,8 +565,7 @@ void Viewer::overlays() {
     return;  // said already
   }
   for (const scene::Light& light : shown_.view.lights) {
-    const glm::dvec3 place = scene::is_sun(light) ? frame.eye + light.towards : light.position;
-    const glm::dvec3 seen = project(frame, size, place);
+    const glm::dvec3 seen = project(frame, size, light);
     if (has_epipolar_lines_ && std::abs(seen.z) > 1e-9) {
       // Where half-planes about the axis from the eye to the light are seen.
       const double reach = 2.0 * (size.x + size.y) + glm::length(glm::dvec2(seen) - 0.5 * size);

@@ -1,6 +1,8 @@
 #include "viewer/shown.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -23,24 +25,26 @@ std::vector<std::pair<const scene::FieldInfo*, std::string>> values_of(const sce
   return values;
 }
 
-std::string tone_map_name(const Shown& shown) {
-  return std::string(scene::tone_map_names()[static_cast<std::size_t>(shown.tone_map)]);
+std::string in_quotes(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + '"';
 }
 
-/// A value as TOML has it: words in quotes, numbers in brackets where there are several.
-std::string toml_of(const scene::FieldInfo& field, const std::string& text) {
+/// A field's line of a TOML file: words in quotes, numbers in brackets where there are several.
+std::string toml_line(const scene::FieldInfo& field, const std::string& text) {
+  std::string value = text;
   if (field.kind == scene::FieldKind::word || field.kind == scene::FieldKind::file) {
-    std::string quoted = "\"";
-    for (const char c : text) {
-      if (c == '"' || c == '\\') quoted += '\\';
-      quoted += c;
-    }
-    return quoted + '"';
+    value = in_quotes(text);
+  } else if (text.find(',') != std::string::npos) {
+    value.assign(1, '[');
+    for (const char c : text) value += c == ',' ? std::string(", ") : std::string(1, c);
+    value += ']';
   }
-  if (text.find(',') == std::string::npos) return text;
-  std::string list = "[";
-  for (const char c : text) list += c == ',' ? std::string(", ") : std::string(1, c);
-  return list + ']';
+  return fmt::format("{} = {}\n", field.key(), value);
 }
 
 }  // namespace
@@ -74,7 +78,7 @@ std::string command_of(const SceneName& scene, const Shown& shown, const std::st
   for (const scene::Light& light : shown.view.lights)
     for (const auto& [field, text] : values_of(light)) add(field->name, text);
   if (shown.exposure) add("exposure", fmt::format("{}", *shown.exposure));
-  add("tone-map", tone_map_name(shown));
+  add("tone-map", scene::tone_map_name(shown.tone_map));
   if (quality::is_read("shadow-map", {&shown.volume, 1}, {&shown.surface, 1}))
     add("shadow-map", fmt::format("{}", shown.shadow_map));
   add("volume", spec_of(shown.volume));
@@ -82,22 +86,25 @@ std::string command_of(const SceneName& scene, const Shown& shown, const std::st
   return fmt::format("{} -o {}", command, quality::shell_quote(output));
 }
 
+std::string path_of(std::span<const PathKey> keys) {
+  const double seconds = std::max(keys.back().time, 1.0);
+  std::string path =
+      fmt::format("frames = {}\nseconds = {}\n", static_cast<int>(std::lround(30.0 * seconds)) + 1, seconds);
+  for (const PathKey& key : keys) {
+    path += fmt::format("\n[[camera]]\ntime = {}\n", key.time);
+    scene::for_each_value(key.camera, [&](const scene::FieldInfo& field, const scene::FieldValue& value) {
+      path += toml_line(field, scene::text_of(value));
+    });
+  }
+  return path;
+}
+
 std::string shot_of(const SceneName& scene, const Shown& shown) {
-  const auto quoted = [](const std::string& text) {
-    return toml_of({.group = {},
-                    .name = {},
-                    .kind = scene::FieldKind::word,
-                    .placeholder = {},
-                    .label = {},
-                    .meaning = {}},
-                   text);
-  };
-  std::string shot = fmt::format("scene = {}\n", quoted(scene.spec));
+  std::string shot = fmt::format("scene = {}\n", in_quotes(scene.spec));
   if (scene.triangles) shot += fmt::format("triangles = {}\n", *scene.triangles);
   if (shown.exposure) shot += fmt::format("exposure = {}\n", *shown.exposure);
-  if (scene.albedo)
-    shot += fmt::format("albedo = {}\n", toml_of(scene::field<scene::Scene>("albedo"), *scene.albedo));
-  shot += fmt::format("tone_map = {}\n", quoted(tone_map_name(shown)));
+  if (scene.albedo) shot += toml_line(scene::field<scene::Scene>("albedo"), *scene.albedo);
+  shot += toml_line(scene::field<scene::Scene>("tone-map"), scene::tone_map_name(shown.tone_map));
   // What belongs to no table stands before all of them.
   std::string tables;
   std::string_view table;
@@ -106,16 +113,14 @@ std::string shot_of(const SceneName& scene, const Shown& shown) {
         if (field.kind == scene::FieldKind::size) return;  // an image's size is no part of a shot
         if (!part.empty() && part != table) tables += fmt::format("\n[{}]\n", part);
         table = part;
-        (part.empty() ? shot : tables) +=
-            fmt::format("{} = {}\n", field.key(), toml_of(field, scene::text_of(value)));
+        (part.empty() ? shot : tables) += toml_line(field, scene::text_of(value));
       });
   shot += tables;
   for (const scene::Light& light : shown.view.lights) {
     shot += shown.view.lights.size() > 1 ? "\n[[light]]\n"
             : scene::is_sun(light)       ? "\n[sun]\n"
                                          : "\n[light]\n";
-    for (const auto& [field, text] : values_of(light))
-      shot += fmt::format("{} = {}\n", field->key(), toml_of(*field, text));
+    for (const auto& [field, text] : values_of(light)) shot += toml_line(*field, text);
   }
   return shot;
 }

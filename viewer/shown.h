@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "quality/methods.h"
@@ -33,6 +34,15 @@ std::string spec_of(const quality::Choice<MethodType>& choice);
 /// The command that renders this very image.
 /// @param output of -o
 std::string command_of(const SceneName& scene, const Shown& shown, const std::string& output);
+
+/// Where the camera of a path is at a time.
+struct PathKey {
+  double time;  ///< [s]
+  scene::Camera camera;
+};
+
+/// A path (scene::load_path) through them, of thirty frames a second.
+std::string path_of(std::span<const PathKey> keys);
 
 /// A shot (scene::load_shot) of it. Methods are no part of shots.
 std::string shot_of(const SceneName& scene, const Shown& shown);

@@ -52,18 +52,20 @@ std::optional<BackgroundTruth::Image> BackgroundTruth::take() {
 void BackgroundTruth::trace(const scene::Geometry& geometry, const scene::View& view) {
   double work = 0.0, done = 0.0;  // in images of the whole size
   for (const int divisor : k_divisors) work += 1.0 / (divisor * divisor);
+  std::vector<reference::Reference> of_lights;  // whose hierarchies serve all sizes
   for (const int divisor : k_divisors) {
-    scene::View coarse = view;
-    coarse.size = glm::max(view.size / divisor, glm::ivec2(1));
-    Image image{.size = coarse.size, .airlight = {}, .is_whole = divisor == 1};
+    Image image{
+        .size = glm::max(view.size / divisor, glm::ivec2(1)), .airlight = {}, .is_whole = divisor == 1};
     for (std::size_t light = 0; light < view.lights.size(); ++light) {
       if (is_stopped_) return;
+      if (light == of_lights.size()) of_lights.emplace_back(geometry, view, light);
+      of_lights[light].resize(image.size);
       const double share = 1.0 / (divisor * divisor * static_cast<double>(view.lights.size()));
       const auto follow = [&](double fraction) {
         if (is_stopped_) throw Stopped{};
         fraction_ = (done + fraction * share) / work;
       };
-      const auto traced = reference::Reference(geometry, coarse, light).exact(1, follow);
+      const auto traced = of_lights[light].exact(1, follow);
       done += share;
       if (image.airlight.empty()) image.airlight.resize(traced.radiance.size());
       for (std::size_t i = 0; i < traced.radiance.size(); ++i) image.airlight[i] += traced.radiance[i];

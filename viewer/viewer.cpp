@@ -12,12 +12,10 @@
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 
-#include "quality/judge.h"
 #include "quality/metrics.h"
 #include "quality/pictures.h"
 #include "quality/results.h"
 #include "scene/error.h"
-#include "scene/view_fields.h"
 #include "viewer/cameras.h"
 
 #include "spirv/viewer/develop_frag.h"
@@ -46,10 +44,6 @@ bool are_alike(const Shown& a, const Shown& b) {
          spec_of(a.surface) == spec_of(b.surface);
 }
 
-std::span<const float> floats_of(const std::vector<glm::vec3>& image) {
-  return {&image[0].x, 3 * image.size()};
-}
-
 }  // namespace
 
 Viewer::Viewer(gpu::Context& context, const scene::Scene& scene, SceneName name, const Shown& shown,
@@ -71,8 +65,7 @@ Viewer::Viewer(gpu::Context& context, const scene::Scene& scene, SceneName name,
       speed_(0.1 * scene_size_) {}
 
 std::string Viewer::command() const {
-  Shown shown = shown_;
-  return command_of(name_, shown, "picture.exr");
+  return command_of(name_, shown_, "picture.exr");
 }
 
 std::int64_t Viewer::bytes() const {
@@ -95,6 +88,14 @@ double Viewer::patience() const {
   const bool is_busy =
       !events_.empty() || frames_to_draw_ > 0 || !is_settled_ || is_playing_ || !keys_down_.empty();
   return is_busy ? 0.0 : awaits_truth() ? 0.1 : 1.0;
+}
+
+void Viewer::set_beside(Beside beside, Layout layout) {
+  layout_ = layout;
+  if (beside == beside_) return;
+  beside_ = beside;
+  drawn_right_.reset();
+  is_settled_ = false;
 }
 
 bool Viewer::awaits_truth() const {
@@ -136,8 +137,8 @@ bool Viewer::draw(double seconds) {
 
   gui_.begin(events, window_, pixels_, elapsed);
   take_keys(events, elapsed);
-  take_mouse(elapsed);
-  play(elapsed);
+  take_mouse();
+  if (path_ && is_playing_) set_path_time(path_seconds_ + elapsed);
   if (has_panels_) draw_panels();
   shown_.view.size = pixels_;
   try {
@@ -155,6 +156,14 @@ bool Viewer::draw(double seconds) {
   return true;
 }
 
+bool Viewer::has_shift() const {
+  return keys_down_.contains(GLFW_KEY_LEFT_SHIFT) || keys_down_.contains(GLFW_KEY_RIGHT_SHIFT);
+}
+
+bool Viewer::has_control() const {
+  return keys_down_.contains(GLFW_KEY_LEFT_CONTROL) || keys_down_.contains(GLFW_KEY_RIGHT_CONTROL);
+}
+
 void Viewer::take_keys(const std::vector<Event>& events, double elapsed) {
   for (const Event& event : events) {
     const auto* key = std::get_if<KeyEvent>(&event);
@@ -165,8 +174,7 @@ void Viewer::take_keys(const std::vector<Event>& events, double elapsed) {
     }
     if (gui_.wants_keyboard()) continue;
     keys_down_.insert(key->key);
-    const bool is_control =
-        keys_down_.contains(GLFW_KEY_LEFT_CONTROL) || keys_down_.contains(GLFW_KEY_RIGHT_CONTROL);
+    const bool is_control = has_control();
     switch (key->key) {
       case GLFW_KEY_ESCAPE:
         is_closed_ = true;
@@ -205,21 +213,17 @@ void Viewer::take_keys(const std::vector<Event>& events, double elapsed) {
         break;
     }
   }
-  if (gui_.wants_keyboard() || keys_down_.contains(GLFW_KEY_LEFT_CONTROL) ||
-      keys_down_.contains(GLFW_KEY_RIGHT_CONTROL))
-    return;
+  if (gui_.wants_keyboard() || has_control()) return;
   const auto towards = [&](int more, int less) {
     return (keys_down_.contains(more) ? 1.0 : 0.0) - (keys_down_.contains(less) ? 1.0 : 0.0);
   };
   const glm::dvec3 way(towards(GLFW_KEY_D, GLFW_KEY_A), towards(GLFW_KEY_E, GLFW_KEY_Q),
                        towards(GLFW_KEY_W, GLFW_KEY_S));
-  const bool is_fast = keys_down_.contains(GLFW_KEY_LEFT_SHIFT) || keys_down_.contains(GLFW_KEY_RIGHT_SHIFT);
-  if (way != glm::dvec3(0.0)) fly(shown_.view.camera, (is_fast ? 4.0 : 1.0) * speed_ * elapsed * way);
+  if (way != glm::dvec3(0.0)) fly(shown_.view.camera, (has_shift() ? 4.0 : 1.0) * speed_ * elapsed * way);
 }
 
-void Viewer::take_mouse(double) {
+void Viewer::take_mouse() {
   const bool is_held = buttons_[0] || buttons_[1] || buttons_[2];
-  const bool is_shift = keys_down_.contains(GLFW_KEY_LEFT_SHIFT) || keys_down_.contains(GLFW_KEY_RIGHT_SHIFT);
   scene::Camera& camera = shown_.view.camera;
   if (is_held && drag_ == Drag::none && !gui_.wants_mouse()) {
     // What the button has gone down on decides what it drags.
@@ -227,7 +231,7 @@ void Viewer::take_mouse(double) {
     if (buttons_[1]) {
       drag_ = Drag::orbit;
     } else if (buttons_[2]) {
-      drag_ = is_shift ? Drag::pan : Drag::orbit;
+      drag_ = has_shift() ? Drag::pan : Drag::orbit;
     } else {
       drag_ = Drag::look;
       if (beside_ != Beside::nothing && layout_ == Layout::split &&
@@ -235,9 +239,7 @@ void Viewer::take_mouse(double) {
         drag_ = Drag::divider;
       const scene::CameraFrame frame = scene::camera_frame(camera, pixels_);
       for (std::size_t i = 0; i < shown_.view.lights.size(); ++i) {
-        const scene::Light& light = shown_.view.lights[i];
-        const glm::dvec3 place = scene::is_sun(light) ? frame.eye + light.towards : light.position;
-        const glm::dvec3 seen = project(frame, size, place);
+        const glm::dvec3 seen = project(frame, size, shown_.view.lights[i]);
         if (seen.z > 0.0 && glm::distance(glm::dvec2(seen), cursor_) < k_handle) {
           drag_ = Drag::light;
           dragged_light_ = i;
@@ -292,13 +294,12 @@ void Viewer::drag_light(glm::dvec2 from, glm::dvec2 to) {
   const scene::CameraFrame frame = scene::camera_frame(shown_.view.camera, pixels_);
   const glm::dvec2 size(window_);
   if (scene::is_sun(light)) {
-    light.towards = scene::unit(ray_through(frame, size, to));
+    light.towards = scene::unit(scene::image_ray(frame, size, to));
     return;
   }
-  const bool is_shift = keys_down_.contains(GLFW_KEY_LEFT_SHIFT) || keys_down_.contains(GLFW_KEY_RIGHT_SHIFT);
-  if (is_shift && light.cone) {
+  if (has_shift() && light.cone) {
     // Along its shaft, as far as the cursor goes along it.
-    const glm::dvec2 at = project(frame, size, light.position);
+    const glm::dvec2 at = project(frame, size, light);
     const glm::dvec3 ahead = project(frame, size, light.position + 0.01 * scene_size_ * light.cone->axis);
     const glm::dvec2 along = glm::dvec2(ahead) - at;
     const double share = glm::dot(to - from, along) / std::max(glm::dot(along, along), 1e-9);
@@ -306,8 +307,8 @@ void Viewer::drag_light(glm::dvec2 from, glm::dvec2 to) {
       light.position += std::clamp(share, -20.0, 20.0) * 0.01 * scene_size_ * light.cone->axis;
     return;
   }
-  const double depth = project(frame, size, light.position).z;
-  light.position += depth * (ray_through(frame, size, to) - ray_through(frame, size, from));
+  const double depth = project(frame, size, light).z;
+  light.position += depth * (scene::image_ray(frame, size, to) - scene::image_ray(frame, size, from));
 }
 
 void Viewer::set_path_time(double seconds) {
@@ -318,10 +319,6 @@ void Viewer::set_path_time(double seconds) {
   const scene::View& view = path_->views[std::min(static_cast<std::size_t>(std::lround(place)), last)];
   shown_.view.camera = view.camera;
   if (view.lights.size() == shown_.view.lights.size()) shown_.view.lights = view.lights;
-}
-
-void Viewer::play(double elapsed) {
-  if (path_ && is_playing_) set_path_time(path_seconds_ + elapsed);
 }
 
 void Viewer::draw_picture(double seconds) {
@@ -338,7 +335,7 @@ void Viewer::draw_picture(double seconds) {
     has_truth_ = false;
     truth_image_.reset();
     truth_error_.reset();
-    inspections_.clear();
+    inspections_.reset();
     shown_inspection_.clear();
     slice_at_ = glm::dvec2(-1.0);
     drawn_.reset();
@@ -356,10 +353,7 @@ void Viewer::draw_picture(double seconds) {
     drawn_ = shown_;
     if (has_right) drawn_right_ = right;
     drawn_rung_ = rung;
-    if (rests && !shown_.exposure) {
-      automatic_exposure_ = quality::automatic_exposure(left_.frame(0).read().radiance);
-      exposure_is_old_ = false;
-    }
+    if (rests) find_exposure();
     if (!rests && was_ready) {
       moving_ms_ = moving_ms_ == 0.0 ? ms : 0.7 * moving_ms_ + 0.3 * ms;
       // A rung up has up to 2.25 times the pixels.
@@ -373,13 +367,16 @@ void Viewer::draw_picture(double seconds) {
     }
     return;
   }
-  if (rests && exposure_is_old_ && !shown_.exposure) {
-    automatic_exposure_ = quality::automatic_exposure(left_.frame(0).read().radiance);
-    exposure_is_old_ = false;
-  }
-  if (rests && !is_settled_) settle(seconds);
+  if (rests) find_exposure();
+  if (rests && !is_settled_) settle();
   if (rests && is_settled_) inspect();
   follow_truth();
+}
+
+void Viewer::find_exposure() {
+  if (!exposure_is_old_ || shown_.exposure) return;
+  automatic_exposure_ = quality::automatic_exposure(left_.frame(0).read().radiance);
+  exposure_is_old_ = false;
 }
 
 void Viewer::draw_rung(std::size_t rung) {
@@ -388,14 +385,14 @@ void Viewer::draw_rung(std::size_t rung) {
   ++pictures_drawn_;
   exposure_is_old_ = true;
   if (has_profiler_) {
-    history_.push_back({timer.milliseconds(), rung});
+    history_.push_back(timer.milliseconds());
     if (history_.size() > 120) history_.pop_front();
   }
   gpu::StageTimer off(nullptr);
   if (beside_ == Beside::method) right_.draw(rung, off);
 }
 
-void Viewer::settle(double) {
+void Viewer::settle() {
   // Rungs are made ready one a frame, down to the first that is fast enough to move by.
   for (std::size_t rung = 0; rung < k_rungs.size(); ++rung) {
     if (!left_.is_ready(rung) || !left_.ms(rung)) {
@@ -427,6 +424,11 @@ void Viewer::judge_surfaces() {
   frames_to_draw_ = 1;
 }
 
+const std::vector<frame::DebugImage>& Viewer::inspections() {
+  if (!inspections_) inspections_ = left_.inspect(0);
+  return *inspections_;
+}
+
 void Viewer::inspect() {
   const auto upload = [](gpu::Texture& texture, const frame::DebugImage& image) {
     if (texture.size() != image.size || texture.format() != gpu::Format::r32f) {
@@ -438,8 +440,7 @@ void Viewer::inspect() {
   if (inspected_ == k_undecided && inspected_ != shown_inspection_) {
     judge_surfaces();
   } else if (inspected_ != shown_inspection_ && !inspected_.empty()) {
-    if (inspections_.empty()) inspections_ = left_.inspect(0);
-    for (const frame::DebugImage& image : inspections_) {
+    for (const frame::DebugImage& image : inspections()) {
       if (image.name != inspected_) continue;
       upload(inspection_, image);
       shown_inspection_ = inspected_;
@@ -490,7 +491,8 @@ void Viewer::follow_truth() {
   if (truth_radiance_.size() != size) truth_radiance_ = gpu::Texture(gpu::Format::rgba32f, size);
   truth_radiance_.write(picture.data());
   if (image->is_whole) {
-    const auto error = quality::airlight_error(floats_of(images.airlight), floats_of(image->airlight));
+    const auto error =
+        quality::airlight_error(quality::channels_of(images.airlight), quality::channels_of(image->airlight));
     truth_error_ = error.rrmse;
   }
   truth_image_ = std::move(image);
@@ -623,15 +625,7 @@ void Viewer::save_path() {
     std::filesystem::create_directories(folder_);
     const std::filesystem::path file = next_file("_path.toml");
     std::ofstream stream(file);
-    const double seconds = std::max(keys_.back().time, 1.0);
-    stream << fmt::format("frames = {}\nseconds = {}\n", static_cast<int>(std::lround(30.0 * seconds)) + 1,
-                          seconds);
-    for (const PathKey& key : keys_) {
-      const auto vector = [](glm::dvec3 v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); };
-      stream << fmt::format("\n[[camera]]\ntime = {}\neye = {}\ntarget = {}\nup = {}\nfov = {}\n", key.time,
-                            vector(key.camera.eye), vector(key.camera.target), vector(key.camera.up),
-                            key.camera.vertical_fov_degrees);
-    }
+    stream << path_of(keys_);
     stream.close();
     if (!stream) throw scene::Error(scene::ExitCode::bad_file, file.string(), "it cannot be written");
     path_ = scene::load_path(file, shown_.view);

@@ -81,29 +81,27 @@ class Viewer {
   std::optional<double> truth_error() const { return truth_error_; }  ///< rrmse of what is on screen
   /// On the GPU: the picture's images, volumes and maps at all sizes, the scene left out.
   std::int64_t bytes() const;
-  void set_beside(Beside beside, Layout layout) {
-    beside_ = beside;
-    layout_ = layout;
-  }
+  void set_beside(Beside beside, Layout layout);
 
  private:
   // viewer.cpp
   void take_keys(const std::vector<Event>& events, double elapsed);
-  void take_mouse(double elapsed);
+  void take_mouse();
+  bool has_shift() const;
+  bool has_control() const;
   void drag_light(glm::dvec2 from, glm::dvec2 to);
-  void play(double elapsed);
   void draw_picture(double seconds);
   void draw_rung(std::size_t rung);
-  void settle(double seconds);
+  void settle();
+  void find_exposure();
   void develop();
   void compose();
   bool awaits_truth() const;
   void follow_truth();
   void inspect();
+  const std::vector<frame::DebugImage>& inspections();
   void judge_surfaces();
-  void slice_panel();
   void set_path_time(double seconds);
-  scene::View view_to_draw() const;
   void say(const std::string& message);
   std::filesystem::path next_file(const std::string& ending) const;
   void save_picture();
@@ -121,11 +119,12 @@ class Viewer {
   void picture_panel();
   void path_panel();
   void help_panel();
+  void slice_panel();
   void profiler();
   void status_line();
   void overlays();
   template <typename Thing>
-  void edit_fields(Thing& thing, const std::string& prefix, const std::set<std::string>& without = {});
+  void edit_fields(Thing& thing, const std::string& prefix);
   template <typename MethodType>
   void edit_method(quality::Choice<MethodType>& choice, std::span<const MethodType> methods,
                    const char* label, const std::string& prefix);
@@ -138,10 +137,6 @@ class Viewer {
 
   // What is shown.
   Shown shown_, start_;
-  struct OffLight {
-    scene::Light light;
-    std::size_t place;  ///< among all
-  };
   std::vector<scene::Light> off_lights_;
   Beside beside_ = Beside::nothing;
   Layout layout_ = Layout::split;
@@ -151,16 +146,12 @@ class Viewer {
   bool has_epipolar_lines_ = false, has_panels_ = true, has_help_ = false, has_profiler_ = false;
   bool has_slice_ = false;
   std::string
-      inspected_;  ///< which of the method's pictures lies over the image, or "undecided"; empty for none
+      inspected_;  ///< which of the method's pictures lies over the image, or k_undecided; empty for none
 
   // A path, and its keys where one is recorded.
   std::optional<scene::Path> path_;
   double path_seconds_ = 0.0;
   bool is_playing_ = false;
-  struct PathKey {
-    double time;
-    scene::Camera camera;
-  };
   std::vector<PathKey> keys_;
 
   // What has been drawn.
@@ -174,21 +165,17 @@ class Viewer {
   double moving_ms_ = 0.0, last_change_ = -1e9, last_frame_ = -1e9;
   bool is_settled_ = false;  ///< nothing is left to be done for a picture at rest
   float automatic_exposure_ = 1.0f;
-  bool exposure_is_old_ = true;  ///< the automatic one is not of the picture as drawn
-  struct Stages {
-    std::map<std::string, double> ms;
-    std::size_t rung;
-  };
-  std::deque<Stages> history_;
+  bool exposure_is_old_ = true;                          ///< the automatic one is not of the picture as drawn
+  std::deque<std::map<std::string, double>> history_;    ///< of frames, stages [ms]
   std::map<scene::ToneMap, frame::ScreenPass> develop_;  ///< made when first needed
   frame::ScreenPass develop_difference_;
   /// The pictures as the screen has colours, of their own sizes; row 0 at the top.
   gpu::Texture left_picture_, right_picture_;
   std::string developed_;  ///< what they have been developed from, in words; empty for nothing
   gpu::Texture image_, truth_radiance_;
-  std::vector<frame::DebugImage> inspections_;  ///< of the picture as drawn; empty until asked for
-  gpu::Texture inspection_;                     ///< the one that is shown
-  std::string shown_inspection_;                ///< its name
+  std::optional<std::vector<frame::DebugImage>> inspections_;  ///< of the picture as drawn, once asked for
+  gpu::Texture inspection_;                                    ///< the one that is shown
+  std::string shown_inspection_;                               ///< its name
   gpu::Texture slice_;
   std::string slice_caption_;
   glm::dvec2 slice_at_{-1.0};
@@ -215,7 +202,6 @@ class Viewer {
   bool is_closed_ = false;
   std::string message_, problem_;
   double message_until_ = -1e9, now_ = 0.0;
-  std::string copied_;
 };
 
 }  // namespace airlight::viewer

@@ -1,19 +1,16 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "frame/light_colour.glsl"
+#include "frame/seen_colour.glsl"
 #include "frame/uniforms.glsl"
 
 layout(binding = k_triangle_unit) uniform usampler2D triangle_plus_one;
 layout(binding = k_surface_unit) uniform sampler2D surface_image;
 layout(binding = k_visibility_unit) uniform sampler2D visibility_image;
 layout(binding = k_airlight_unit) uniform sampler2D airlight_image;
-layout(binding = k_albedos_unit) uniform samplerBuffer albedos;
-layout(binding = k_materials_unit) uniform usamplerBuffer material_of_triangle;
 layout(binding = k_light_texture_unit) uniform sampler2D light_texture;
-layout(binding = k_base_colour_unit) uniform sampler2D base_colour_image;
 layout(binding = k_shading_normal_unit) uniform sampler2D shading_normal_image;
 layout(constant_id = 0) const uint k_light_textured = 0;
-layout(constant_id = 1) const uint k_has_textures = 0;
 layout(constant_id = 2) const uint k_has_normals = 0;
 layout(location = 0) out vec4 radiance;
 layout(location = 1) out vec4 airlight;  // where that of several lights is summed
@@ -39,8 +36,7 @@ void main() {
     }
     vec2 seen_part = part_in_medium(medium, direction.y, distance);
     float path = max(seen_part.y - seen_part.x, 0.0) + light_path(medium, light, point);
-    vec3 albedo = k_has_textures != 0u ? texelFetch(base_colour_image, pixel, 0).rgb
-                                    : texelFetch(albedos, int(texelFetch(material_of_triangle, int(seen) - 1).r)).rgb;
+    vec3 albedo = seen_colour(pixel, seen);
     vec3 colour = k_light_textured != 0u ? light_colour(light_texture, -way) : vec3(1.0);
     colour *= cone_share(light, -way / max(r, 1e-30)) * range_share(light, r);
     // A sun's `way` is of unit length.

@@ -91,8 +91,7 @@ int run(int argc, char** argv) {
   // The left button takes the light, where it is seen.
   const scene::CameraFrame frame = scene::camera_frame(viewer.shown().view.camera, view.size);
   const scene::Light& light = viewer.shown().view.lights[0];
-  const glm::dvec2 place(
-      viewer::project(frame, view.size, scene::is_sun(light) ? frame.eye + light.towards : light.position));
+  const glm::dvec2 place(viewer::project(frame, view.size, light));
   viewer.push(viewer::CursorEvent{place});
   viewer.push(viewer::ButtonEvent{0, true});
   viewer.draw(now);

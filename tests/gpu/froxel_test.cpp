@@ -69,7 +69,8 @@ TEST_F(FroxelHistory, ComesNearerToManyLookUps) {
     const auto change = [&](const Images& images) {
       const std::vector<float> seen(images[i].size(), 1.0f);
       const auto error = [&](std::size_t j) {
-        return quality::error_image(tests::values(images[j]), seen, tests::values(truth[j]), seen);
+        return quality::error_image(quality::channels_of(images[j]), seen, quality::channels_of(truth[j]),
+                                    seen);
       };
       return quality::flicker(error(i - 1), error(i));
     };

@@ -55,7 +55,7 @@ tests::VsvSettings by(VsvIntegral integral) {
 void expect_empty_layer(const scene::View& view, VsvIntegral integral, double tolerance) {
   const auto truth = reference::Reference({}, view).exact().radiance;
   const auto image = tests::render_vsv({}, view, by(integral)).airlight;
-  const std::span<const float> values = tests::values(truth);
+  const std::span<const float> values = quality::channels_of(truth);
   const double rounding = 1e-7 * static_cast<double>(*std::max_element(values.begin(), values.end()));
   for (std::size_t i = 0; i < image.size(); ++i) {
     for (int channel = 0; channel < 3; ++channel) {

@@ -80,14 +80,10 @@ inline std::string name_of(media::VsvIntegral integral) {
   return k_names.at(static_cast<std::size_t>(integral));
 }
 
-inline std::span<const float> values(const std::vector<glm::vec3>& image) {
-  return {&image.data()->x, 3 * image.size()};
-}
-
 /// See quality::airlight_error, which refuses NaN and infinity.
 inline quality::AirlightError error_of(const std::vector<glm::vec3>& image,
                                        const std::vector<glm::vec3>& reference) {
-  return quality::airlight_error(values(image), values(reference));
+  return quality::airlight_error(quality::channels_of(image), quality::channels_of(reference));
 }
 
 /// The truth of a view.

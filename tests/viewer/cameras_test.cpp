@@ -86,7 +86,7 @@ TEST(Cameras, PanDollyAndFly) {
 TEST(Cameras, ProjectAlongTheirRays) {
   const scene::CameraFrame frame = scene::camera_frame(camera(), {640, 360});
   const glm::dvec2 size(640, 360), place(123.0, 301.0);
-  const glm::dvec3 seen = project(frame, size, frame.eye + 4.0 * ray_through(frame, size, place));
+  const glm::dvec3 seen = project(frame, size, frame.eye + 4.0 * scene::image_ray(frame, size, place));
   EXPECT_NEAR(seen.x, place.x, 1e-9);
   EXPECT_NEAR(seen.y, place.y, 1e-9);
   EXPECT_NEAR(seen.z, 4.0, 1e-12);

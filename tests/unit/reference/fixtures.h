@@ -74,10 +74,7 @@ inline SurfaceCount count_surfaces(const SurfaceImage& image) {
 
 /// The rrmse of an image against the truth. Refuses NaN and infinity.
 inline double rrmse(const std::vector<glm::vec3>& image, const std::vector<glm::vec3>& truth) {
-  const auto values = [](const std::vector<glm::vec3>& of) {
-    return std::span<const float>(&of.data()->x, 3 * of.size());
-  };
-  return quality::airlight_error(values(image), values(truth)).rrmse;
+  return quality::airlight_error(quality::channels_of(image), quality::channels_of(truth)).rrmse;
 }
 
 inline double rrmse(const AirlightImage& image, const AirlightImage& truth) {

@@ -62,8 +62,8 @@ double signed_volume(const Geometry& geometry) {
   return volume;
 }
 
-/// The number of pieces, connected by indices, whose triangles face inwards.
-std::size_t parts_inside_out(const Geometry& geometry) {
+/// For each vertex one that stands for its piece: those connected by triangles.
+std::vector<glm::uint> pieces_of(const Geometry& geometry) {
   std::vector<glm::uint> root(geometry.positions.size());
   std::iota(root.begin(), root.end(), 0u);
   const auto find = [&](glm::uint i) {
@@ -74,10 +74,17 @@ std::size_t parts_inside_out(const Geometry& geometry) {
     root[find(t.x)] = find(t.y);
     root[find(t.y)] = find(t.z);
   }
+  for (glm::uint i = 0; i < root.size(); ++i) root[i] = find(i);
+  return root;
+}
+
+/// The number of pieces, connected by indices, whose triangles face inwards.
+std::size_t parts_inside_out(const Geometry& geometry) {
+  const std::vector<glm::uint> piece = pieces_of(geometry);
   std::map<glm::uint, Geometry> parts;
   for (glm::uvec3 t : geometry.triangles) {
     // About a point of its own: a small part far from the origin has a volume of few digits.
-    const glm::uint part = find(t.x);
+    const glm::uint part = piece[t.x];
     Geometry& own = parts[part];
     const auto first = static_cast<glm::uint>(own.positions.size());
     for (int i = 0; i < 3; ++i) own.positions.push_back(geometry.positions[t[i]] - geometry.positions[part]);
@@ -381,18 +388,8 @@ TEST(Toroid, IsOnePieceOfGenusFifteen) {
   const auto vertices = static_cast<long>(geometry.positions.size());
   const auto faces = static_cast<long>(geometry.triangles.size());
   EXPECT_EQ(vertices - faces / 2, 2 - 2 * 15);
-  std::vector<glm::uint> root(geometry.positions.size());
-  std::iota(root.begin(), root.end(), 0u);
-  const auto find = [&](glm::uint i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
-  for (glm::uvec3 t : geometry.triangles) {
-    root[find(t.x)] = find(t.y);
-    root[find(t.y)] = find(t.z);
-  }
-  std::set<glm::uint> pieces;
-  for (glm::uint i = 0; i < root.size(); ++i) pieces.insert(find(i));
+  const std::vector<glm::uint> piece = pieces_of(geometry);
+  const std::set<glm::uint> pieces(piece.begin(), piece.end());
   EXPECT_EQ(pieces.size(), 1u) << "and no vertex is unused";
 }
 
