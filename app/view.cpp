@@ -31,7 +31,8 @@ void view(const Options& options) {
   require_gpu(surfaces[0], "--surface");
   Subject subject = make_subject(options);
   if (!options.get("size")) subject.view.size = {1280, 720};
-  viewer::Shown shown{subject.view, volumes[0], surfaces[0], shadow_map, subject.exposure};
+  viewer::Shown shown{subject.view, volumes[0],       surfaces[0],
+                      shadow_map,   subject.exposure, subject.scene.tone_map};
   fit_to_view(volumes, surfaces, subject);
   if (!options.quiet) say_warnings(subject.scene.report);
   require_memory(
@@ -43,9 +44,10 @@ void view(const Options& options) {
 
   viewer::Window window(fmt::format("{} - Airlight", options.scene), subject.view.size);
   gpu::Context context = gpu::Context::adopt_current();
-  viewer::Viewer viewer(context, subject.scene,
-                        {options.scene, options.get("triangles"), options.get("albedo")}, shown, subject.path,
-                        output_folder(options));
+  viewer::Viewer viewer(
+      context, subject.scene,
+      {options.scene, options.get("triangles"), options.get("albedo"), options.get("looks")}, shown,
+      subject.path, output_folder(options));
   while (!viewer.is_closed()) {
     window.wait(viewer.patience());
     for (const viewer::Event& event : window.events().take_all()) viewer.push(event);

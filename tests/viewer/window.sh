@@ -21,7 +21,7 @@ export DISPLAY=:$number
 openbox >"$work/openbox.log" 2>&1 &
 for _ in $(seq 100); do xdotool get_num_desktops >/dev/null 2>&1 && break; sleep 0.1; done # until it manages windows
 open_window() {
-  "$airlight" view window --size 480x270 --alpha 64 --theta 256 --phi 128 --shadow-map 256 -o "$work/out" >"$work/view.log" 2>&1 &
+  "$airlight" view window --size 480x270 --alpha 64 --theta 256 --phi 128 --shadow-map 256 --looks flat --tone-map aces -o "$work/out" >"$work/view.log" 2>&1 &
   pid=$!
   for _ in $(seq 300); do
     window=$(xdotool search --onlyvisible --pid $pid 2>/dev/null | head -1)
@@ -40,10 +40,12 @@ written() { # ENDING
   fail "no $1 was written"
 }
 
-# 2. A picture by its key, of the window's size.
+# 2. A picture by its key, of the window's size, with the command that repeats it.
 open_window
 xdotool key --window "$window" F12
 written .png
+written .exr
+grep -aq -- '--looks=flat .*--tone-map=aces' "$work"/out/*_001.exr || fail "the command in the picture is not what the window was opened by"
 # 3. A drag moves the camera: a later picture is another. (A window manager may still be moving the window at the first try.)
 moved=
 for try in 2 3 4 5 6; do
