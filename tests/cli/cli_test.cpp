@@ -257,7 +257,7 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{{"--phase", "hoffman-preetham", "--rayleigh-weight=-0.1"}, "--rayleigh-weight"},
         Misuse{{"--phase", "hoffman-preetham", "--rayleigh-weight", "nan"}, "--rayleigh-weight"},
         Misuse{{"--g", "0.5"}, "henyey-greenstein"}, Misuse{{"--albedo", "1.5"}, "--albedo"},
-        Misuse{{"--looks", "nice"}, "use flat or textured"}, Misuse{{"--tone-map", "nice"}, "--tone-map"},
+        Misuse{{"--looks", "nice"}, "use flat, textured"}, Misuse{{"--tone-map", "nice"}, "--tone-map"},
         Misuse{{"--ambient", "fitted"}, "--ambient"}, Misuse{{"--background=-1"}, "--background"},
         Misuse{{"--exposure", "0"}, "--exposure"}, Misuse{{"--exposure", "inf"}, "--exposure"},
         Misuse{{"--shadow-map", "0"}, "--shadow-map"},
@@ -644,7 +644,7 @@ TEST_F(Render, ShowsModelsTexturedUnlessToldOtherwise) {
   };
   const Result missing = small(words("render", view({})));
   expect_one_line_error(missing, 3);
-  EXPECT_THAT(missing.err, HasSubstr("material 'm', base-colour texture: red.png: there is no such file"));
+  EXPECT_THAT(missing.err, HasSubstr("material 'm', texture: red.png: there is no such file"));
   // compare asks for what methods compute alone.
   EXPECT_EQ(small(words("compare", view({"--volume", "vsv", "--frames", "1"}))).exit_code, 0);
   expect_one_line_error(small(words("compare", view({"--volume", "vsv", "--looks", "textured"}))), 3);
