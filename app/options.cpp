@@ -77,7 +77,7 @@ scene::Scene load_scene(const Options& options) {
     const std::string problem = is_shot(file) ? "" : scene::count_problem(builtin, name, *triangles);
     if (!problem.empty()) throw usage("--triangles", problem);
   }
-  if (builtin) return builtin->make(triangles);
+  if (builtin) return builtin->make(triangles, shown);
   if (is_shot(file)) return scene::load_shot(file, triangles, quality::read_light_texture, shown);
   if (std::error_code error; !file.has_extension() && !std::filesystem::exists(file, error)) {
     throw Error(ExitCode::bad_file, name, "there is no such scene", scene_help());
@@ -230,7 +230,7 @@ void fit_to_view(std::vector<quality::VolumeChoice>& volumes, std::vector<qualit
                  Subject& subject) {
   for (quality::VolumeChoice& volume : volumes) volume.fit(subject.views());
   for (quality::SurfaceChoice& surface : surfaces) surface.fit(subject.views());
-  quality::warn_of_open_parts(volumes, surfaces, subject.scene);
+  quality::warn_of_geometry(volumes, surfaces, subject.scene);
 }
 
 std::string command_of_pair(const Options& options, const quality::VolumeChoice& volume,

@@ -69,6 +69,7 @@ struct VolumeOptions {
   void fit(const scene::View& view);
 
   bool needs_closed_parts() const { return populate == Populate::screen_space; }
+  bool ignores_cut_outs() const { return populate != Populate::shadow_map; }
   bool needs_shadow_map() const { return populate == Populate::shadow_map; }
 };
 

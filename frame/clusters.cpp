@@ -69,15 +69,24 @@ Clusters make_clusters(const scene::Geometry& geometry) {
   std::iota(result.order.begin(), result.order.end(), 0u);
   std::stable_sort(result.order.begin(), result.order.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return codes[a] < codes[b]; });
+  result.first_cut_out = count;
+  if (scene::has_cut_outs(geometry)) {
+    const auto first =
+        std::stable_partition(result.order.begin(), result.order.end(),
+                              [&](std::uint32_t triangle) { return !scene::is_cut_out(geometry, triangle); });
+    result.first_cut_out = static_cast<std::uint32_t>(first - result.order.begin());
+  }
 
   // Cut it.
-  for (std::uint32_t first = 0; first < count; first += k_cluster_triangles) {
-    Cluster cluster{first, std::min(k_cluster_triangles, count - first), {}};
+  for (std::uint32_t first = 0; first < count;) {
+    const std::uint32_t end = first < result.first_cut_out ? result.first_cut_out : count;
+    Cluster cluster{first, std::min(k_cluster_triangles, end - first), {}};
     for (std::uint32_t i = 0; i < cluster.triangle_count; ++i) {
       const glm::uvec3 triangle = geometry.triangles[result.order[first + i]];
       for (int corner = 0; corner < 3; ++corner) cluster.box.include(geometry.positions[triangle[corner]]);
     }
     result.clusters.push_back(cluster);
+    first += cluster.triangle_count;
   }
   return result;
 }

@@ -20,11 +20,14 @@ struct Cluster {
 struct Clusters {
   std::vector<std::uint32_t> order;  ///< order[i]: which triangle of the geometry comes i-th
   std::vector<Cluster> clusters;
+  /// The place in `order` of the first triangle of which parts are cut out (scene::CutOut): these are the
+  /// last ones, and no cluster is of both kinds.
+  std::uint32_t first_cut_out = 0;
 };
 
 inline constexpr std::uint32_t k_cluster_triangles = 128;
 
-/// Sorts triangles by the Morton code of their centroids.
+/// Sorts triangles by the Morton code of their centroids, whole ones first.
 Clusters make_clusters(const scene::Geometry& geometry);
 
 /// A pyramid without a base, open at infinity.

@@ -1,5 +1,7 @@
 #include "frame/gbuffer.h"
 
+#include <array>
+
 #include "frame/blocks.h"
 #include "frame/reversed_depth.h"
 
@@ -14,22 +16,23 @@ GBuffer::GBuffer(glm::ivec2 size)
       surfaces_(gpu::Format::rgba32f, size),
       depth_(gpu::Format::depth32f, size),
       framebuffer_({triangles_}, depth_),
-      draw_(
-          gpu::Pipeline::graphics({.vertex = k_gbuffer_vert, .fragment = k_gbuffer_frag}, k_reversed_depth)),
+      draw_([](bool cut_outs) {
+        return gpu::Pipeline::graphics({.vertex = k_gbuffer_vert, .fragment = k_gbuffer_frag},
+                                       k_reversed_depth, std::array{gpu::Constant(0, cut_outs)});
+      }),
       resolve_(k_surfaces_frag) {}
 
 void GBuffer::draw(const SceneBuffers& scene, const scene::CameraFrame& camera,
-                   std::span<const std::uint32_t> left_out) const {
+                   std::span<const std::uint32_t> left_out) {
   framebuffer_.clear();
-  draw_.draw(framebuffer_, [&] {
-    scene.draw({.apex = camera.eye,
-                .right = camera.right,
-                .up = camera.up,
-                .forward = camera.forward,
-                .half_width = camera.half_width,
-                .half_height = camera.half_height},
-               left_out);
-  });
+  const Pyramid seen{.apex = camera.eye,
+                     .right = camera.right,
+                     .up = camera.up,
+                     .forward = camera.forward,
+                     .half_width = camera.half_width,
+                     .half_height = camera.half_height};
+  draw_.draw(
+      framebuffer_, scene, [&](const scene::Box& box) { return may_touch(seen, box); }, left_out);
   find_surfaces(scene, surfaces_);
 }
 

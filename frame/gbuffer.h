@@ -2,7 +2,7 @@
 
 #include "frame/scene_buffers.h"
 #include "frame/screen_pass.h"
-#include "gpu/pipeline.h"
+#include "frame/surface_pipeline.h"
 #include "gpu/texture.h"
 
 namespace airlight::frame {
@@ -16,7 +16,7 @@ class GBuffer {
   /// Draws the scene. The camera's block is bound.
   /// @param left_out triangle numbers, sorted
   void draw(const SceneBuffers& scene, const scene::CameraFrame& camera,
-            std::span<const std::uint32_t> left_out) const;
+            std::span<const std::uint32_t> left_out);
 
   /// As `surfaces`, of the camera whose block is bound: the same one, in as many or in fewer pixels.
   void find_surfaces(const SceneBuffers& scene, const gpu::Texture& surfaces) const;
@@ -29,7 +29,7 @@ class GBuffer {
  private:
   gpu::Texture triangles_, surfaces_, depth_;
   gpu::Framebuffer framebuffer_;
-  gpu::Pipeline draw_;
+  SurfacePipeline draw_;
   ScreenPass resolve_;
 };
 

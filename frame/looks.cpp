@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -78,12 +80,20 @@ Looks::Looks(const gpu::Context& context, const scene::Geometry& geometry,
     }
     std::vector<glm::uvec4> of_materials;
     for (const scene::Material& material : geometry.materials) {
-      glm::uvec4& info = of_materials.emplace_back(0u);
-      if (!material.texture) continue;
-      const glm::uvec2 size(geometry.textures[*material.texture].size);
-      info = {first_texels[*material.texture], size.x, size.y,
-              static_cast<std::uint32_t>(material.wrap[0]) | static_cast<std::uint32_t>(material.wrap[1])
-                                                                 << 4};
+      const auto add = [&](std::optional<std::uint32_t> texture, float least_alpha) {
+        glm::uvec4& info = of_materials.emplace_back(0u);
+        if (!texture) return;
+        const glm::uvec2 size(geometry.textures[*texture].size);
+        info = {first_texels[*texture], size.x | size.y << 16,
+                static_cast<std::uint32_t>(material.wrap[0]) | static_cast<std::uint32_t>(material.wrap[1])
+                                                                   << 4,
+                std::bit_cast<std::uint32_t>(least_alpha)};
+      };
+      add(material.texture, 0.0f);
+      if (const std::optional<scene::CutOut>& mask = material.cut_out)
+        add(mask->texture, mask->least_alpha);
+      else
+        add({}, 0.0f);
     }
     std::vector<std::array<glm::vec2, 3>> places;
     places.reserve(order.size());
@@ -113,13 +123,16 @@ void Looks::draw(const SceneBuffers& scene, const gpu::Texture& triangles, LookI
     if (image->size() != triangles.size()) *image = gpu::Texture(gpu::Format::rgba16f, triangles.size());
   scene.bind_samplers();
   triangles.bind_sampler(shaders::k_triangle_unit);
-  if (has_textures_) {
-    texels_.bind_sampler(shaders::k_texels_unit);
-    material_texture_texels_.bind_sampler(shaders::k_material_textures_unit);
-    texture_place_texels_.bind_sampler(shaders::k_texture_places_unit);
-  }
+  bind_textures();
+  if (has_textures_) texture_place_texels_.bind_sampler(shaders::k_texture_places_unit);
   if (has_normals_) normal_texels_.bind_sampler(shaders::k_normals_unit);
   pass_.run({images.base_colours, images.shading_normals});
+}
+
+void Looks::bind_textures() const {
+  if (!has_textures_) return;
+  texels_.bind_sampler(shaders::k_texels_unit);
+  material_texture_texels_.bind_sampler(shaders::k_material_textures_unit);
 }
 
 std::int64_t Looks::bytes() const {

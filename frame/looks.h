@@ -39,6 +39,12 @@ class Looks {
   bool has_textures() const { return has_textures_; }
   bool has_normals() const { return has_normals_; }
 
+  /// Of each triangle's corners, in its order: vec2, three a triangle. Empty without textures.
+  const gpu::Buffer& texture_places() const { return texture_places_; }
+
+  /// Binds textures and what materials have of them (shaders/frame/textures.glsl), where there are any.
+  void bind_textures() const;
+
   /// The surfaces of a frame, into images that get its size. The camera's block is bound.
   /// @param scene whose looks these are @param triangles as of GBuffer
   void draw(const SceneBuffers& scene, const gpu::Texture& triangles, LookImages& images) const;

@@ -58,6 +58,8 @@ struct Method {
   std::function<void(std::any& options, const scene::View& view)> fit;
   /// Whether it takes the scene's parts for solids: where they are not closed, a warning says so.
   std::function<bool(const std::any& options)> needs_closed_parts;
+  /// Whether it takes triangles whole that materials cut parts out of: a warning says so.
+  std::function<bool(const std::any& options)> ignores_cut_outs;
   /// Whether it asks for the shadow map (FrameInputs::shadow_map).
   std::function<bool(const std::any& options)> needs_shadow_map;
   std::function<std::unique_ptr<Interface>(const gpu::Context&, const std::any& options)> make;
@@ -82,6 +84,7 @@ struct NoOptions {};
 ///     each other std::optional<Refusal> refusal(const scene::View& view) const;   // else every view can be
 ///     shown void fit(const scene::View& view);                               // else nothing is automatic
 ///     bool needs_closed_parts() const;                                 // else not
+///     bool ignores_cut_outs() const;                                   // else not
 ///     bool needs_shadow_map() const;                                   // else not
 ///
 /// @param make std::unique_ptr<Interface>(const gpu::Context&, const Options&)
@@ -100,6 +103,7 @@ Method<Interface> describe(std::string_view name, std::string_view description, 
       .refusal = [](const std::any&, const scene::View&) { return std::nullopt; },
       .fit = [](std::any&, const scene::View&) {},
       .needs_closed_parts = [](const std::any&) { return false; },
+      .ignores_cut_outs = [](const std::any&) { return false; },
       .needs_shadow_map = [](const std::any&) { return false; },
       .make = [make](const gpu::Context& context,
                      const std::any& any) { return make(context, std::any_cast<const Options&>(any)); }};
@@ -114,6 +118,10 @@ Method<Interface> describe(std::string_view name, std::string_view description, 
   if constexpr (requires(const Options& o) { o.needs_closed_parts(); })
     method.needs_closed_parts = [](const std::any& any) {
       return std::any_cast<const Options&>(any).needs_closed_parts();
+    };
+  if constexpr (requires(const Options& o) { o.ignores_cut_outs(); })
+    method.ignores_cut_outs = [](const std::any& any) {
+      return std::any_cast<const Options&>(any).ignores_cut_outs();
     };
   if constexpr (requires(const Options& o) { o.needs_shadow_map(); })
     method.needs_shadow_map = [](const std::any& any) {

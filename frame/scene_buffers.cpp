@@ -52,19 +52,45 @@ SceneBuffers::SceneBuffers(const gpu::Context& context, const scene::Geometry& g
 
   if (Looks::are_in(geometry)) looks_.emplace(context, geometry, clusters_.order);
 
-  GLuint name = 0;
-  glCreateVertexArrays(1, &name);
-  vertex_array_ = gpu::Handle<gpu::delete_vertex_array>(name);
-  glVertexArrayElementBuffer(name, triangles_.name());
-  glVertexArrayVertexBuffer(name, 0, positions_.name(), 0, sizeof(glm::vec3));
-  glVertexArrayAttribFormat(name, 0, 3, GL_FLOAT, GL_FALSE, 0);
-  glVertexArrayAttribBinding(name, 0, 0);
-  glEnableVertexArrayAttrib(name, 0);
-  glVertexArrayVertexBuffer(name, 1, first_triangles_.name(), 0, sizeof(std::uint32_t));
-  glVertexArrayAttribIFormat(name, 1, 1, GL_UNSIGNED_INT, 0);
-  glVertexArrayAttribBinding(name, 1, 1);
-  glVertexArrayBindingDivisor(name, 1, 1);  // one value a draw, picked by its base instance
-  glEnableVertexArrayAttrib(name, 1);
+  if (has_cut_outs()) {
+    std::vector<glm::vec3> positions;
+    positions.reserve(3 * std::size_t{triangle_count() - clusters_.first_cut_out});
+    for (std::uint32_t i = clusters_.first_cut_out; i < triangle_count(); ++i)
+      for (int corner = 0; corner < 3; ++corner)
+        positions.push_back(geometry.positions[triangles[i][corner]]);
+    cut_out_positions_ = upload(positions);
+  }
+  make_vertex_arrays();
+}
+
+void SceneBuffers::make_vertex_arrays() {
+  const auto make = [&](const gpu::Buffer& positions) {
+    GLuint name = 0;
+    glCreateVertexArrays(1, &name);
+    glVertexArrayVertexBuffer(name, 0, positions.name(), 0, sizeof(glm::vec3));
+    glVertexArrayAttribFormat(name, 0, 3, GL_FLOAT, GL_FALSE, 0);
+    glVertexArrayAttribBinding(name, 0, 0);
+    glEnableVertexArrayAttrib(name, 0);
+    glVertexArrayVertexBuffer(name, 1, first_triangles_.name(), 0, sizeof(std::uint32_t));
+    glVertexArrayAttribIFormat(name, 1, 1, GL_UNSIGNED_INT, 0);
+    glVertexArrayAttribBinding(name, 1, 1);
+    glVertexArrayBindingDivisor(name, 1, 1);  // one value a draw, picked by its base instance
+    glEnableVertexArrayAttrib(name, 1);
+    return gpu::Handle<gpu::delete_vertex_array>(name);
+  };
+  vertex_array_ = make(positions_);
+  glVertexArrayElementBuffer(vertex_array_.get(), triangles_.name());
+  if (!has_cut_outs()) return;
+
+  // Corners that triangles share may lie at several places of a texture: these are drawn without indices.
+  cut_out_vertex_array_ = make(cut_out_positions_);
+  const GLuint name = cut_out_vertex_array_.get();
+  glVertexArrayVertexBuffer(name, 2, looks_->texture_places().name(),
+                            static_cast<GLintptr>(clusters_.first_cut_out * sizeof(std::array<glm::vec2, 3>)),
+                            sizeof(glm::vec2));
+  glVertexArrayAttribFormat(name, 2, 2, GL_FLOAT, GL_FALSE, 0);
+  glVertexArrayAttribBinding(name, 2, 2);
+  glEnableVertexArrayAttrib(name, 2);
 }
 
 void SceneBuffers::bind_samplers() const {
@@ -74,46 +100,64 @@ void SceneBuffers::bind_samplers() const {
   material_texels_.bind_sampler(shaders::k_materials_unit);
 }
 
-void SceneBuffers::draw_triangles(std::uint32_t first, std::uint32_t end) const {
+void SceneBuffers::draw_triangles(std::uint32_t first, std::uint32_t end, Drawn drawn,
+                                  std::optional<std::size_t> cluster) const {
   if (first == end) return;
-  const auto offset = static_cast<std::uintptr_t>(first) * sizeof(glm::uvec3);
-  glDisableVertexArrayAttrib(vertex_array_.get(), 1);
-  glVertexAttribI1ui(1, first);
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * (end - first)), GL_UNSIGNED_INT,
-                 reinterpret_cast<const void*>(offset));
-  glEnableVertexArrayAttrib(vertex_array_.get(), 1);
+  const GLuint vertex_array = drawn == Drawn::cut_outs ? cut_out_vertex_array_.get() : vertex_array_.get();
+  if (!cluster) {
+    glDisableVertexArrayAttrib(vertex_array, 1);
+    glVertexAttribI1ui(1, first);
+  }
+  const auto count = static_cast<GLsizei>(3 * (end - first));
+  const auto instance = static_cast<GLuint>(cluster.value_or(0));
+  if (drawn == Drawn::cut_outs) {
+    const auto first_corner = static_cast<GLint>(3 * (first - clusters_.first_cut_out));
+    glDrawArraysInstancedBaseInstance(GL_TRIANGLES, first_corner, count, 1, instance);
+  } else {
+    const auto offset = static_cast<std::uintptr_t>(first) * sizeof(glm::uvec3);
+    glDrawElementsInstancedBaseInstance(GL_TRIANGLES, count, GL_UNSIGNED_INT,
+                                        reinterpret_cast<const void*>(offset), 1, instance);
+  }
+  if (!cluster) glEnableVertexArrayAttrib(vertex_array, 1);
 }
 
-void SceneBuffers::draw(const Pyramid& pyramid, std::span<const std::uint32_t> left_out) const {
-  draw([&](const scene::Box& box) { return may_touch(pyramid, box); }, left_out);
+void SceneBuffers::draw(const Pyramid& pyramid, std::span<const std::uint32_t> left_out, Drawn drawn) const {
+  draw([&](const scene::Box& box) { return may_touch(pyramid, box); }, left_out, drawn);
 }
 
 void SceneBuffers::draw(const std::function<bool(const scene::Box&)>& may_touch,
-                        std::span<const std::uint32_t> left_out) const {
-  glBindVertexArray(vertex_array_.get());
+                        std::span<const std::uint32_t> left_out, Drawn drawn) const {
+  if (drawn == Drawn::cut_outs) {
+    if (!has_cut_outs()) return;
+    bind_samplers();
+    looks_->bind_textures();
+  }
+  glBindVertexArray(drawn == Drawn::cut_outs ? cut_out_vertex_array_.get() : vertex_array_.get());
   const auto& clusters = clusters_.clusters;
+  const auto is_drawn = [&](const Cluster& cluster) {
+    const bool is_cut_out = cluster.first_triangle >= clusters_.first_cut_out;
+    return (drawn == Drawn::all || (drawn == Drawn::cut_outs) == is_cut_out) && may_touch(cluster.box);
+  };
   for (std::size_t i = 0; i < clusters.size();) {
-    if (!may_touch(clusters[i].box)) {
+    if (!is_drawn(clusters[i])) {
       ++i;
       continue;
     }
     const std::size_t first = i;
     std::uint32_t triangles = 0;
-    for (; i < clusters.size() && may_touch(clusters[i].box); ++i) triangles += clusters[i].triangle_count;
+    for (; i < clusters.size() && is_drawn(clusters[i]); ++i) triangles += clusters[i].triangle_count;
     std::uint32_t begin = clusters[first].first_triangle;
     const std::uint32_t end = begin + triangles;
     const auto skipped = std::lower_bound(left_out.begin(), left_out.end(), begin);
     if (skipped != left_out.end() && *skipped < end) {
       for (auto hole = skipped; hole != left_out.end() && *hole < end; ++hole) {
-        draw_triangles(begin, *hole);
+        draw_triangles(begin, *hole, drawn);
         begin = *hole + 1;
       }
-      draw_triangles(begin, end);
+      draw_triangles(begin, end, drawn);
       continue;
     }
-    const auto offset = static_cast<std::uintptr_t>(begin) * sizeof(glm::uvec3);
-    glDrawElementsInstancedBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(3 * triangles), GL_UNSIGNED_INT,
-                                        reinterpret_cast<const void*>(offset), 1, static_cast<GLuint>(first));
+    draw_triangles(begin, end, drawn, first);
   }
 }
 
@@ -127,7 +171,7 @@ std::vector<std::uint32_t> SceneBuffers::triangles_at(glm::dvec3 apex, double ey
 
 std::int64_t SceneBuffers::bytes() const {
   return positions_.bytes() + triangles_.bytes() + albedos_.bytes() + material_of_triangle_.bytes() +
-         (looks_ ? looks_->bytes() : 0);
+         cut_out_positions_.bytes() + (looks_ ? looks_->bytes() : 0);
 }
 
 }  // namespace airlight::frame

@@ -14,6 +14,14 @@
 
 namespace airlight::frame {
 
+/// Which triangles are drawn. Where the materials of some cut parts out of them, that is drawn by pipelines
+/// of its own (shaders/frame/cut_out.glsl).
+enum class Drawn {
+  all,       ///< each as a whole
+  whole,     ///< those without cut-outs
+  cut_outs,  ///< the others; vertex attribute 2 = place in the material's texture
+};
+
 /// A scene's geometry on the GPU, in the order of its clusters. Triangle numbers of the shaders count in that
 /// order.
 class SceneBuffers {
@@ -30,12 +38,16 @@ class SceneBuffers {
   /// Draws what may lie in the pyramid. Vertex attributes: 0 = world position, 1 = first triangle of the
   /// draw.
   /// @param left_out triangle numbers, sorted
-  void draw(const Pyramid& pyramid, std::span<const std::uint32_t> left_out = {}) const;
+  void draw(const Pyramid& pyramid, std::span<const std::uint32_t> left_out = {},
+            Drawn drawn = Drawn::all) const;
 
   /// The same for another region.
   /// @param may_touch whether a box, world space, may reach into it: never wrongly "no"
   void draw(const std::function<bool(const scene::Box&)>& may_touch,
-            std::span<const std::uint32_t> left_out = {}) const;
+            std::span<const std::uint32_t> left_out = {}, Drawn drawn = Drawn::all) const;
+
+  /// Whether the materials of some triangles cut parts out of them.
+  bool has_cut_outs() const { return clusters_.first_cut_out < triangle_count(); }
 
   /// Of a model that has any; else nullptr.
   const Looks* looks() const { return looks_ ? &*looks_ : nullptr; }
@@ -59,8 +71,10 @@ class SceneBuffers {
   std::int64_t bytes() const;
 
  private:
-  /// Triangles `first` to `end` − 1.
-  void draw_triangles(std::uint32_t first, std::uint32_t end) const;
+  /// Triangles `first` to `end` − 1, of a cluster's number where they are from its first one on.
+  void draw_triangles(std::uint32_t first, std::uint32_t end, Drawn drawn,
+                      std::optional<std::size_t> cluster = {}) const;
+  void make_vertex_arrays();
 
   const scene::Geometry* geometry_;
   std::uint64_t id_;
@@ -68,7 +82,8 @@ class SceneBuffers {
   Clusters clusters_;
   gpu::Buffer positions_, triangles_, albedos_, material_of_triangle_, first_triangles_;
   gpu::TexelView position_texels_, triangle_texels_, albedo_texels_, material_texels_;
-  gpu::Handle<gpu::delete_vertex_array> vertex_array_;
+  gpu::Buffer cut_out_positions_;  ///< three a triangle
+  gpu::Handle<gpu::delete_vertex_array> vertex_array_, cut_out_vertex_array_;
   std::optional<Looks> looks_;
 };
 

@@ -24,9 +24,12 @@ void require_shadow_map(const gpu::Context& context, int size) {
   }
 }
 
-gpu::Pipeline make_shadow_map_program(bool is_plane) {
-  return gpu::Pipeline::graphics({.vertex = k_shadow_map_vert, .fragment = k_shadow_map_frag},
-                                 k_reversed_depth, std::array{gpu::Constant(0, is_plane ? 1 : 0)});
+SurfacePipeline make_shadow_map_pipeline(bool is_plane) {
+  return SurfacePipeline([is_plane](bool cut_outs) {
+    return gpu::Pipeline::graphics({.vertex = k_shadow_map_vert, .fragment = k_shadow_map_frag},
+                                   k_reversed_depth,
+                                   std::array{gpu::Constant(0, is_plane), gpu::Constant(1, cut_outs)});
+  });
 }
 
 namespace {
@@ -92,12 +95,11 @@ CubeFaces needed_faces(const scene::CameraFrame& camera, glm::dvec3 light, doubl
   return needed;
 }
 
-ShadowMap::ShadowMap(const gpu::Context& context, int size) {
+ShadowMap::ShadowMap(const gpu::Context& context, int size) : pipeline_(make_shadow_map_pipeline(false)) {
   require_shadow_map(context, size);
   depth_ = gpu::Texture(gpu::Format::depth32f, {size, size}, 6);
   for (int face = 0; face < 6; ++face)
     faces_.push_back(gpu::Framebuffer({}, gpu::Attachment(depth_, 0, face)));
-  program_ = make_shadow_map_program(false);
 }
 
 void ShadowMap::draw(const SceneBuffers& scene, glm::dvec3 light, std::span<const std::uint32_t> left_out,
@@ -110,19 +112,20 @@ void ShadowMap::draw(const SceneBuffers& scene, glm::dvec3 light, std::span<cons
     empty_[face] = !faces[face];
     drawn_[face] = faces[face];
     if (!faces[face]) continue;
-    program_.set(0, static_cast<int>(face));
-    program_.set(1, light_high);
-    program_.set(2, glm::vec3(light - glm::dvec3(light_high)));
     const FaceAxes axes(static_cast<int>(face));
-    program_.draw(target, [&] {
-      scene.draw({.apex = light,
-                  .right = axes.u,
-                  .up = axes.v,
-                  .forward = axes.forward,
-                  .half_width = 1.0,
-                  .half_height = 1.0},
-                 left_out);
-    });
+    const Pyramid seen{.apex = light,
+                       .right = axes.u,
+                       .up = axes.v,
+                       .forward = axes.forward,
+                       .half_width = 1.0,
+                       .half_height = 1.0};
+    pipeline_.draw(
+        target, scene, [&](const scene::Box& box) { return may_touch(seen, box); }, left_out,
+        [&](gpu::Pipeline& pipeline) {
+          pipeline.set(0, static_cast<int>(face));
+          pipeline.set(1, light_high);
+          pipeline.set(2, glm::vec3(light - glm::dvec3(light_high)));
+        });
   }
 }
 

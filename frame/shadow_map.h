@@ -3,6 +3,7 @@
 #include <bitset>
 
 #include "frame/scene_buffers.h"
+#include "frame/surface_pipeline.h"
 #include "gpu/pipeline.h"
 #include "gpu/texture.h"
 
@@ -12,7 +13,7 @@ namespace airlight::frame {
 void require_shadow_map(const gpu::Context& context, int size);
 
 /// Draws depth on a face of a cube, the uniform at location 0, or on a plane (shadow_plane.h).
-gpu::Pipeline make_shadow_map_program(bool is_plane);
+SurfacePipeline make_shadow_map_pipeline(bool is_plane);
 
 /// Of the shadow map's cube, by their numbers (shaders/frame/shadow_cube.glsl).
 using CubeFaces = std::bitset<6>;
@@ -54,7 +55,7 @@ class ShadowMap {
   std::vector<gpu::Framebuffer> faces_;
   CubeFaces drawn_;
   CubeFaces empty_;  ///< known to hold nothing but 0
-  gpu::Pipeline program_;
+  SurfacePipeline pipeline_;
 };
 
 }  // namespace airlight::frame

@@ -135,16 +135,16 @@ std::optional<ShadowPlane> fit_shadow_plane(const scene::Light& light, const sce
   return plane;
 }
 
-ShadowPlaneMap::ShadowPlaneMap(const gpu::Context& context, int size) {
+ShadowPlaneMap::ShadowPlaneMap(const gpu::Context& context, int size)
+    : pipeline_(make_shadow_map_pipeline(true)) {
   require_shadow_map(context, size);
   depth_ = gpu::Texture::array(gpu::Format::depth32f, {size, size}, 1);
   target_ = gpu::Framebuffer({}, gpu::Attachment(depth_, 0, 0));
-  program_ = make_shadow_map_program(true);
 }
 
 void ShadowPlaneMap::draw(const SceneBuffers& scene, const ShadowPlane& plane) {
   target_.clear();
-  program_.draw(target_, [&] { scene.draw([&](const scene::Box& box) { return plane.may_touch(box); }); });
+  pipeline_.draw(target_, scene, [&](const scene::Box& box) { return plane.may_touch(box); });
 }
 
 }  // namespace airlight::frame

@@ -6,7 +6,7 @@
 #include <glm/glm.hpp>
 
 #include "frame/scene_buffers.h"
-#include "gpu/pipeline.h"
+#include "frame/surface_pipeline.h"
 #include "gpu/texture.h"
 #include "scene/scene.h"
 
@@ -43,7 +43,7 @@ class ShadowPlaneMap {
  private:
   gpu::Texture depth_;
   gpu::Framebuffer target_;
-  gpu::Pipeline program_;
+  SurfacePipeline pipeline_;
 };
 
 /// @param box  of the scene

@@ -41,6 +41,7 @@ struct VsvOptions {
     volume.fit(view);
   }
   bool needs_closed_parts() const { return volume.needs_closed_parts(); }
+  bool ignores_cut_outs() const { return volume.ignores_cut_outs(); }
   bool needs_shadow_map() const { return volume.needs_shadow_map(); }
 
   /// The integral that the options stand for.

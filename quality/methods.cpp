@@ -310,15 +310,37 @@ void require_read(std::span<const std::string> given, std::span<const VolumeChoi
   }
 }
 
-void warn_of_open_parts(std::span<const VolumeChoice> volumes, std::span<const SurfaceChoice> surfaces,
-                        scene::Scene& scene) {
-  std::string who;
+namespace {
+
+/// The specs of those that have a property, with commas between.
+template <typename Property>
+std::string specs_with(std::span<const VolumeChoice> volumes, std::span<const SurfaceChoice> surfaces,
+                       const Property& property) {
+  std::string specs;
   const auto note = [&](const auto& choice) {
-    if (choice.method->needs_closed_parts(choice.options))
-      who += fmt::format("{}{}", who.empty() ? "" : ", ", choice.spec);
+    if (property(choice)) specs += fmt::format("{}{}", specs.empty() ? "" : ", ", choice.spec);
   };
   std::for_each(volumes.begin(), volumes.end(), note);
   std::for_each(surfaces.begin(), surfaces.end(), note);
+  return specs;
+}
+
+}  // namespace
+
+void warn_of_geometry(std::span<const VolumeChoice> volumes, std::span<const SurfaceChoice> surfaces,
+                      scene::Scene& scene) {
+  if (const std::string who =
+          specs_with(volumes, surfaces,
+                     [](const auto& choice) { return choice.method->ignores_cut_outs(choice.options); });
+      !who.empty() && scene::has_cut_outs(scene.geometry))
+    scene.report.warnings.push_back(fmt::format(
+        "{} cannot show what materials cut out of their triangles: the shadows are those of whole "
+        "triangles",
+        who));
+
+  const std::string who = specs_with(volumes, surfaces, [](const auto& choice) {
+    return choice.method->needs_closed_parts(choice.options);
+  });
   if (who.empty()) return;
   const scene::Components components =
       scene::find_components(scene.geometry, scene::find_edges(scene.geometry));

@@ -103,8 +103,9 @@ bool is_read(std::string_view name, std::span<const VolumeChoice> volumes,
 void require_read(std::span<const std::string> given, std::span<const VolumeChoice> volumes,
                   std::span<const SurfaceChoice> surfaces);
 
-/// Adds a warning to the scene's report where a method takes its parts for solids and they are not closed.
-void warn_of_open_parts(std::span<const VolumeChoice> volumes, std::span<const SurfaceChoice> surfaces,
-                        scene::Scene& scene);
+/// Adds a warning to the scene's report where a method takes its parts for solids and they are not closed,
+/// and where one takes triangles whole that are cut out.
+void warn_of_geometry(std::span<const VolumeChoice> volumes, std::span<const SurfaceChoice> surfaces,
+                      scene::Scene& scene);
 
 }  // namespace airlight::quality

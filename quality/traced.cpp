@@ -231,7 +231,8 @@ const SurfaceVerdicts& SharedReference::verdicts(std::size_t light, const frame:
   const auto start = Clock::now();
   verdicts.assign(points.triangles.size(), std::nullopt);
   if (const std::vector<reference::SurfacePoint> seen = seen_points(points, light); !seen.empty()) {
-    const reference::Triangles triangles{geometry_.positions, geometry_.triangles};
+    const reference::Triangles triangles{geometry_.positions, geometry_.triangles,
+                                         reference::CutOuts(geometry_)};
     const reference::SurfaceJudge judge(triangles, view_.lights[light], view_.camera.eye);
     const std::vector<reference::SurfaceVerdict> found = judge.judge(seen);
     auto verdict = found.begin();

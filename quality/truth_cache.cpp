@@ -52,6 +52,18 @@ std::string hash_of_geometry(const scene::Geometry& geometry) {
   Hash hash;
   hash.add(geometry.positions);
   hash.add(geometry.triangles);
+  if (scene::has_cut_outs(geometry)) {
+    hash.add(geometry.texture_places);
+    hash.add(geometry.material_of_triangle);
+    for (const scene::Material& material : geometry.materials) {
+      if (!material.cut_out) continue;
+      const scene::TextureImage& mask = geometry.textures[material.cut_out->texture];
+      hash.add(mask.texels);
+      hash.add(std::vector{mask.size.x, mask.size.y, static_cast<int>(material.wrap[0]),
+                           static_cast<int>(material.wrap[1])});
+      hash.add(std::vector{material.cut_out->least_alpha});
+    }
+  }
   return hash.text();
 }
 

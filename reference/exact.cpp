@@ -91,7 +91,7 @@ class Reference::TileIntegrator {
         hierarchy_(hierarchy),
         image_(image),
         integrals_(state.run_integrals(refinement)),
-        occluders_(state.sun) {}
+        occluders_(state.sun, &state.triangles.cut_outs) {}
 
   Sums integrate(const Tile& tile) {
     tile_ = tile;
@@ -124,7 +124,7 @@ class Reference::TileIntegrator {
     }
     occluders_.clear();
     for (const std::uint32_t triangle : found_)
-      occluders_.add(state_.triangles.around(state_.origin, triangle));
+      occluders_.add(state_.triangles.around(state_.origin, triangle), triangle);
     for (int y = part.from.y; y < part.to.y; ++y) {
       for (int x = part.from.x; x < part.to.x; ++x) integrate_pixel(x, y);
     }

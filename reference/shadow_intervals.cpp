@@ -48,6 +48,7 @@ std::optional<Shadow> shadow(const SunRay& ray, const Segment& s) {
 
 void Occluders::clear() {
   corners_.clear();
+  triangles_.clear();
   for (int i = 0; i < 3; ++i) {
     x_[i].clear();
     y_[i].clear();
@@ -56,9 +57,10 @@ void Occluders::clear() {
   margin_.clear();
 }
 
-void Occluders::add(const Corners& corners) {
+void Occluders::add(const Corners& corners, std::uint32_t triangle) {
   if (sun_ ? is_edge_on_to_sun(corners, *sun_) : is_edge_on(corners)) return;
   corners_.push_back(corners);
+  if (cut_outs_) triangles_.push_back(triangle);
   double largest = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
     const glm::dvec3& c = corners[i];
@@ -94,7 +96,9 @@ void Occluders::find_crossing(const glm::dvec3& n, std::vector<std::uint32_t>& c
 }
 
 template <class Ray>
-void ShadowIntervals::add_shadow(const Ray& ray, const Interval& range, const Corners& corners) {
+void ShadowIntervals::add_shadow(const Ray& ray, const Interval& range, const Occluders& occluders,
+                                 std::size_t i) {
+  const Corners& corners = occluders.corners(i);
   const glm::dvec3 n = glm::cross(ray.w, ray.q);
   const double side[3] = {glm::dot(n, corners[0]), glm::dot(n, corners[1]), glm::dot(n, corners[2])};
   const bool positive[3] = {side[0] >= 0.0, side[1] >= 0.0, side[2] >= 0.0};
@@ -102,27 +106,52 @@ void ShadowIntervals::add_shadow(const Ray& ray, const Interval& range, const Co
   const std::size_t alone = positive[0] == positive[1] ? 2 : positive[1] == positive[2] ? 0 : 1;
 
   // The segment in which the half-plane's plane cuts the triangle.
+  std::size_t first = (alone + 1) % 3, second = (alone + 2) % 3;  // the edges from `alone` that are cut
+  const auto ends_of = [&](std::size_t other) {
+    return positive[alone] ? std::pair(other, alone) : std::pair(alone, other);
+  };
   const auto cut = [&](std::size_t other) {
-    const auto [below, above] = positive[alone] ? std::pair(other, alone) : std::pair(alone, other);
+    const auto [below, above] = ends_of(other);
     const glm::dvec3 point =
         corners[below] + side[below] / (side[below] - side[above]) * (corners[above] - corners[below]);
     return glm::dvec2(glm::dot(ray.w, point), glm::dot(ray.q, point));
   };
-  Segment segment{cut((alone + 1) % 3), cut((alone + 2) % 3)};
-  if (segment.p.y > segment.q.y) std::swap(segment.p, segment.q);
+  Segment segment{cut(first), cut(second)};
+  if (segment.p.y > segment.q.y) {
+    std::swap(segment.p, segment.q);
+    std::swap(first, second);
+  }
 
-  const std::optional<Shadow> cast = shadow(ray, segment);
-  if (!cast) return;
-  const double from = std::max(std::min(cast->a, cast->b), range.from),
-               to = std::min(std::max(cast->a, cast->b), range.to);
-  if (from < to) intervals_.push_back({from, to});
+  const auto add = [&](const Segment& part) {
+    const std::optional<Shadow> cast = shadow(ray, part);
+    if (!cast) return;
+    const double from = std::max(std::min(cast->a, cast->b), range.from),
+                 to = std::min(std::max(cast->a, cast->b), range.to);
+    if (from < to) intervals_.push_back({from, to});
+  };
+  const CutOuts* cut_outs = occluders.cut_outs(i);
+  if (!cut_outs) return add(segment);
+
+  const auto weights = [&](std::size_t other) {
+    const auto [below, above] = ends_of(other);
+    const double part = side[below] / (side[below] - side[above]);
+    glm::dvec3 of_corners(0.0);
+    of_corners[static_cast<int>(below)] = 1.0 - part;
+    of_corners[static_cast<int>(above)] = part;
+    return of_corners;
+  };
+  cut_outs->find_parts(occluders.triangle(i), weights(first), weights(second), parts_);
+  const auto at = [&](double part) {
+    return part == 0.0 ? segment.p : part == 1.0 ? segment.q : glm::mix(segment.p, segment.q, part);
+  };
+  for (const CutOuts::Part& part : parts_) add({at(part.from), at(part.to)});
 }
 
 template <class Ray>
 void ShadowIntervals::find_shadows(const Ray& ray, const Interval& range, Occluders& occluders) {
   intervals_.clear();
   occluders.find_crossing(glm::cross(ray.w, ray.q), crossing_);
-  for (const std::uint32_t i : crossing_) add_shadow(ray, range, occluders.corners(i));
+  for (const std::uint32_t i : crossing_) add_shadow(ray, range, occluders, i);
   std::sort(intervals_.begin(), intervals_.end(),
             [](const Interval& a, const Interval& b) { return a.from < b.from; });
 }

@@ -15,16 +15,25 @@ namespace airlight::reference {
 class Occluders {
  public:
   /// @param sun unit direction to the light where that is a sun
-  explicit Occluders(std::optional<glm::dvec3> sun = {}) : sun_(sun) {}
+  /// @param cut_outs of the triangles, where these are a model's; kept by reference
+  explicit Occluders(std::optional<glm::dvec3> sun = {}, const CutOuts* cut_outs = nullptr)
+      : sun_(sun), cut_outs_(cut_outs && !cut_outs->empty() ? cut_outs : nullptr) {}
 
   void clear();
 
   /// @param corners relative to the light [m], or to the eye under a sun. A triangle edge-on to the light
   /// casts no shadow, and is left out.
-  void add(const Corners& corners);
+  /// @param triangle its number, where there are cut-outs
+  void add(const Corners& corners, std::uint32_t triangle = 0);
 
   std::size_t count() const { return corners_.size(); }
   const Corners& corners(std::size_t i) const { return corners_[i]; }
+
+  /// What is cut out of one, or nullptr; the number by which it is asked.
+  const CutOuts* cut_outs(std::size_t i) const {
+    return cut_outs_ && cut_outs_->has(triangles_[i]) ? cut_outs_ : nullptr;
+  }
+  std::uint32_t triangle(std::size_t i) const { return triangles_[i]; }
 
   /// Writes the numbers of those that may cross the plane through the origin of unit normal `n`: all that do,
   /// and few that do not.
@@ -32,7 +41,9 @@ class Occluders {
 
  private:
   std::optional<glm::dvec3> sun_;
+  const CutOuts* cut_outs_;
   std::vector<Corners> corners_;
+  std::vector<std::uint32_t> triangles_;   ///< where there are cut-outs
   std::vector<float> x_[3], y_[3], z_[3];  ///< corners in single precision
   std::vector<float> margin_;              ///< how far their distance from a plane may be off [m]
   std::vector<std::int32_t> flags_;
@@ -50,6 +61,7 @@ class Occluders {
 /// counts as positive), and an edge's point in the half-plane is computed in the same order of its ends by
 /// both of its triangles. Neighbouring triangles thus hide intervals that touch bit by bit, and a closed
 /// surface lets no light through where a ray's half-plane meets its edges, corners, or a whole face.
+/// Of a triangle that is cut out, each part of the segment where there is a surface hides an interval.
 class ShadowIntervals {
  public:
   /// Finds what is lit of the view ray.
@@ -74,11 +86,12 @@ class ShadowIntervals {
   template <class Ray>
   void find_shadows(const Ray& ray, const Interval& range, Occluders& occluders);
   template <class Ray>
-  void add_shadow(const Ray& ray, const Interval& range, const Corners& corners);
+  void add_shadow(const Ray& ray, const Interval& range, const Occluders& occluders, std::size_t i);
   template <class Function>
   void for_each_gap(const Interval& range, const Function& f) const;
 
   std::vector<std::uint32_t> crossing_;
+  std::vector<CutOuts::Part> parts_;
   std::vector<Interval> intervals_;
   std::vector<Run> lit_;
 };

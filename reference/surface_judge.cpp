@@ -114,6 +114,18 @@ class EdgePlane {
   Plane plane_;
 };
 
+/// Whether there is a surface where light to a point meets a triangle that hides it.
+bool is_there(const CutOuts& cut_outs, std::uint32_t triangle, const EdgePlane (&edges)[3],
+              const glm::dvec3& point) {
+  if (!cut_outs.has(triangle)) return true;
+  // Each corner's weight is as the height over the plane of the edge across from it.
+  glm::dvec3 weights;
+  for (int corner = 0; corner < 3; ++corner)
+    weights[corner] = edges[(corner + 1) % 3].plane().height(point).value;
+  const double sum = weights.x + weights.y + weights.z;
+  return sum == 0.0 || cut_outs.is_there(triangle, weights / sum);
+}
+
 }  // namespace
 
 /// The point comes first.
@@ -232,7 +244,7 @@ std::uint32_t SurfaceJudge::hidden_by(std::uint32_t triangle, const Cluster& clu
     bool hides = side == Side::within || facing * side_of(face, plane, point) > 0;
     for (int edge = 0; edge < 3 && hides; ++edge)
       hides = sides[edge] == Side::within || facing * edges[edge].side_of(point) >= 0;
-    if (hides) hidden |= 1u << i;
+    if (hides && is_there(triangles_.cut_outs, triangle, edges, point)) hidden |= 1u << i;
   }
   return hidden;
 }

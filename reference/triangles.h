@@ -8,6 +8,7 @@
 
 #include <glm/glm.hpp>
 
+#include "reference/cut_outs.h"
 #include "scene/scene.h"
 
 namespace airlight::reference {
@@ -45,6 +46,7 @@ inline bool is_edge_on_to_sun(const Corners& c, const glm::dvec3& sun) {
 struct Triangles {
   std::vector<glm::vec3> positions;  ///< world space [m]
   std::vector<glm::uvec3> indices;
+  CutOuts cut_outs = {};
 
   std::size_t count() const { return indices.size(); }
 

@@ -71,6 +71,7 @@ struct Visibility::Embree {
   static void reject_coplanar(const RTCFilterFunctionNArguments* arguments);
   static void reject_edge_on(const RTCFilterFunctionNArguments* arguments);
   static void reject_holding_eye(const RTCFilterFunctionNArguments* arguments);
+  void reject(const RTCFilterFunctionNArguments* arguments, const std::vector<bool>& rejected) const;
 
   template <class Packet, class Rays>
   std::uint32_t lit_packets(const Rays& rays, int count) const;
@@ -100,23 +101,31 @@ void Visibility::Embree::reject_coplanar(const RTCFilterFunctionNArguments* argu
   if (std::abs(glm::dot(n, to_point)) <= clearance * glm::length(n)) arguments->valid[0] = 0;
 }
 
-namespace {
-
-void reject(const RTCFilterFunctionNArguments* arguments, const std::vector<bool>& rejected) {
-  for (unsigned i = 0; i < arguments->N; ++i) {
-    if (arguments->valid[i] != 0 && rejected[RTCHitN_primID(arguments->hit, arguments->N, i)])
-      arguments->valid[i] = 0;
+/// @param rejected one flag a triangle; empty where none is
+void Visibility::Embree::reject(const RTCFilterFunctionNArguments* arguments,
+                                const std::vector<bool>& rejected) const {
+  const unsigned n = arguments->N;
+  for (unsigned i = 0; i < n; ++i) {
+    if (arguments->valid[i] == 0) continue;
+    const unsigned triangle = RTCHitN_primID(arguments->hit, n, i);
+    bool is_rejected = !rejected.empty() && rejected[triangle];
+    if (!is_rejected && triangles.cut_outs.has(triangle)) {
+      const double v = static_cast<double>(RTCHitN_u(arguments->hit, n, i)),
+                   w = static_cast<double>(RTCHitN_v(arguments->hit, n, i));
+      is_rejected = !triangles.cut_outs.is_there(triangle, {1.0 - v - w, v, w});
+    }
+    if (is_rejected) arguments->valid[i] = 0;
   }
 }
 
-}  // namespace
-
 void Visibility::Embree::reject_edge_on(const RTCFilterFunctionNArguments* arguments) {
-  reject(arguments, static_cast<const Embree*>(arguments->geometryUserPtr)->edge_on);
+  const auto* embree = static_cast<const Embree*>(arguments->geometryUserPtr);
+  embree->reject(arguments, embree->edge_on);
 }
 
 void Visibility::Embree::reject_holding_eye(const RTCFilterFunctionNArguments* arguments) {
-  reject(arguments, static_cast<const Embree*>(arguments->geometryUserPtr)->holding_eye);
+  const auto* embree = static_cast<const Embree*>(arguments->geometryUserPtr);
+  embree->reject(arguments, embree->holding_eye);
 }
 
 void Visibility::Embree::attach_triangles() {
@@ -134,8 +143,9 @@ void Visibility::Embree::attach_triangles() {
   rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.indices.data(), 0,
                              sizeof(glm::uvec3), triangles.count());
   rtcSetGeometryUserData(mesh, this);
-  if (!edge_on.empty()) rtcSetGeometryOccludedFilterFunction(mesh, reject_edge_on);
-  if (!holding_eye.empty()) rtcSetGeometryIntersectFilterFunction(mesh, reject_holding_eye);
+  const bool has_cut_outs = !triangles.cut_outs.empty();
+  if (has_cut_outs || !edge_on.empty()) rtcSetGeometryOccludedFilterFunction(mesh, reject_edge_on);
+  if (has_cut_outs || !holding_eye.empty()) rtcSetGeometryIntersectFilterFunction(mesh, reject_holding_eye);
   rtcCommitGeometry(mesh);
 }
 

@@ -101,6 +101,11 @@ constexpr auto k_scenes = std::to_array<BuiltinScene>({
      "a low sun shines through the leaves of a wood towards the beholder, in shafts among trunks and ferns",
      {},
      make_fixed<make_forest>},
+    {"jali",
+     "a low sun falls through screens of pierced marble, cut out of triangles by a texture, in hundreds of "
+     "shafts",
+     {},
+     make_fixed<make_jali>},
     {"lighthouse",
      "by night two beams turn above a ship before their tower, and her rigging cuts them into shafts",
      {},

@@ -30,9 +30,11 @@ struct BuiltinScene {
 
   /// @param triangles from `count->fewest` to k_most_triangles, rounded as it says; only where there is a
   /// count
-  Scene make(std::optional<std::size_t> triangles = {}) const {
+  Scene make(std::optional<std::size_t> triangles = {}, Looks looks = Looks::textured) const {
     assert(!triangles || (count && *triangles >= count->fewest && *triangles <= k_most_triangles));
-    return make_with(triangles.value_or(count ? count->usual : 0));
+    Scene scene = make_with(triangles.value_or(count ? count->usual : 0));
+    if (looks == Looks::flat) show_flat(scene);
+    return scene;
   }
 };
 

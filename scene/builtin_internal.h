@@ -102,6 +102,7 @@ Scene make_nave();
 Scene make_fence();
 Scene make_forest();
 Scene make_harbour();
+Scene make_jali();
 Scene make_lighthouse();
 
 /// @param triangles at least 2000

@@ -135,7 +135,7 @@ TextureImage texture_image(const std::filesystem::path& file, const std::string&
 
 Error texture_error(const std::filesystem::path& file, const std::string& place, const std::string& image,
                     const std::string& problem) {
-  return file_error(file, fmt::format("{}, base-colour texture{}{}", place, image.empty() ? "" : " ", image),
+  return file_error(file, fmt::format("{}, texture{}{}", place, image.empty() ? "" : " ", image),
                     printable(problem), "repair it, or show the model by --looks flat");
 }
 

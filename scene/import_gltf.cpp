@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -79,6 +80,7 @@ struct Rule {
 
 constexpr auto k_rules = std::to_array<Rule>({
     {"accessors", Kind::objects},
+    {"alphaCutoff", Kind::number},
     {"attributes", Kind::object},
     {"baseColorFactor", Kind::numbers, 4},
     {"baseColorTexture", Kind::object},
@@ -390,7 +392,7 @@ class Importer {
       const std::vector<double>& emission = material.emissiveFactor;
       count(std::ranges::any_of(emission, [](double e) { return e != 0.0; }), "light of emissive materials",
             "only point lights, spots and suns are rendered");
-      count(material.alphaMode == "MASK", "alpha masks of materials", "surfaces are opaque");
+      if (material.alphaMode == "MASK") read_mask(material, color[3], read);
       count(material.alphaMode == "BLEND", "transparency of materials", "surfaces are opaque");
       count(material.extensions.contains("KHR_materials_transmission"), "transmission of materials",
             "surfaces are opaque");
@@ -399,6 +401,17 @@ class Importer {
     default_material_ = static_cast<std::uint32_t>(raw_.materials.size());
     raw_.materials.push_back({glm::vec3(1.0f)});
     places_.emplace_back();
+  }
+
+  /// Where the product of the texture's alpha and the material's is less than the cutoff, there is nothing.
+  void read_mask(const tinygltf::Material& material, double alpha, Material& read) {
+    const double cutoff = material.alphaCutoff;
+    if (looks_ == Looks::flat) return count(1, "alpha masks of materials", "surfaces are opaque");
+    if (cutoff <= 0.0) return;
+    if (alpha < cutoff)
+      nothing_.insert(raw_.materials.size() - 1);
+    else if (read.texture)
+      read.cut_out = {*read.texture, static_cast<float>(cutoff / alpha)};
   }
 
   // -- Textures --
@@ -816,6 +829,10 @@ class Importer {
         for (glm::dvec3 position : read_float_vectors(attribute->second, "positions", where))
           raw_.positions.push_back(glm::dvec3(world_from_node * glm::dvec4(position, 1.0)));
       }
+      if (nothing_.contains(static_cast<std::size_t>(primitive.material))) {
+        count(1, "primitives whose material cuts all of them away", "nothing of them is there");
+        continue;
+      }
       const std::size_t first_triangle = raw_.triangles.size();
       add_triangles(primitive, known->second, accessor.count, where);
       if (std::max(raw_.positions.size(), raw_.triangles.size()) > k_most_elements)
@@ -865,7 +882,7 @@ class Importer {
   void add_texture_places(const tinygltf::Primitive& primitive, std::size_t first, std::size_t vertices,
                           std::size_t first_triangle, const std::string& where) {
     const std::size_t material = raw_.material_of_triangle[first_triangle];
-    if (!raw_.materials[material].texture) return;
+    if (!is_textured(raw_.materials[material])) return;
     const Placing& placing = places_[material];
     const std::string name = fmt::format("TEXCOORD_{}", placing.set);
     const auto attribute = primitive.attributes.find(name);
@@ -918,6 +935,7 @@ class Importer {
   RawGeometry raw_;
   std::vector<Placing> places_;         ///< of each material's texture
   std::uint32_t default_material_ = 0;  ///< of `raw_.materials`
+  std::set<std::size_t> nothing_;       ///< materials that cut away all of their triangles
   std::map<int, std::uint32_t> texture_of_image_;
   std::map<std::uint32_t, std::uint32_t>
       untextured_;  ///< materials, by those that they are without a texture

@@ -48,7 +48,7 @@ std::uint32_t untextured(RawGeometry& raw, std::uint32_t material,
 
 /// What is said of those triangles, after their number.
 inline constexpr std::string_view k_untextured =
-    "triangles without texture coordinates shown without their material's texture";
+    "triangles without texture coordinates shown without their material's textures";
 
 /// Brings what a file holds into the form that `Geometry` promises.
 ///

@@ -131,9 +131,10 @@ class MtlReader : public tinyobj::MaterialReader {
     tinyobj::LoadMtl(index_of_name, materials, &stream, warnings, errors);
     // Textures lie relative to the file that names them. Models of other systems have their separators.
     for (std::size_t i = first; i < materials->size(); ++i) {
-      std::string& texture = (*materials)[i].diffuse_texname;
-      std::replace(texture.begin(), texture.end(), '\\', '/');
-      if (!texture.empty()) texture = (folder_ / name).parent_path() / texture;
+      for (std::string* texture : {&(*materials)[i].diffuse_texname, &(*materials)[i].alpha_texname}) {
+        std::replace(texture->begin(), texture->end(), '\\', '/');
+        if (!texture->empty()) *texture = (folder_ / name).parent_path() / *texture;
+      }
     }
     return true;
   }
@@ -183,7 +184,31 @@ glm::vec3 normal(const std::filesystem::path& file, const tinyobj::attrib_t& att
   return glm::vec3(n[0], n[1], n[2]);
 }
 
-/// Where a corner lies in its material's texture, by the options -o and -s of map_Kd, of three numbers each.
+/// Of a map_d: the format names none.
+constexpr float k_least_alpha = 0.5f;
+
+/// How a material's textures lie: those of map_Kd and map_d are at the same places.
+/// @throws Error where they are not
+const tinyobj::texture_option_t& texture_options(const std::filesystem::path& file,
+                                                 const tinyobj::material_t& material) {
+  const tinyobj::texture_option_t &colours = material.diffuse_texopt, &mask = material.alpha_texopt;
+  if (material.alpha_texname.empty()) return colours;
+  if (material.diffuse_texname.empty()) return mask;
+  if (!std::ranges::equal(colours.origin_offset, mask.origin_offset) ||
+      !std::ranges::equal(colours.scale, mask.scale) || colours.clamp != mask.clamp)
+    throw file_error(file, fmt::format("material '{}'", printable(material.name)),
+                     "its map_Kd and its map_d lie differently", "give both the same -o, -s and -clamp");
+  return colours;
+}
+
+/// What a map_d cuts out, as alpha: that of the image, or its red where it is opaque.
+TextureImage mask_of(TextureImage image) {
+  if (std::ranges::all_of(image.texels, [](const glm::u8vec4& texel) { return texel.a == 255; }))
+    for (glm::u8vec4& texel : image.texels) texel.a = texel.r;
+  return image;
+}
+
+/// Where a corner lies in its material's texture, by the options -o and -s of the map, of three numbers each.
 /// Images of MTL begin at the bottom.
 glm::vec2 texture_place(const std::filesystem::path& file, const tinyobj::attrib_t& attributes,
                         const tinyobj::index_t& corner, const tinyobj::texture_option_t& options) {
@@ -219,25 +244,36 @@ Scene import_obj(const std::filesystem::path& file, Looks looks) {
 
   // Materials; the last one is for faces without any.
   RawGeometry raw;
-  std::size_t textured = 0, emissive = 0, transparent = 0;
-  std::map<std::string, std::uint32_t> texture_of_file;
+  std::size_t textured = 0, masked = 0, emissive = 0, transparent = 0;
+  std::map<std::pair<std::string, bool>, std::uint32_t> texture_of_file;  // and whether it is a mask
+  const auto texture_of = [&](const std::string& where, const std::string& texture, bool is_mask) {
+    const auto [known, is_new] =
+        texture_of_file.try_emplace({texture, is_mask}, static_cast<std::uint32_t>(raw.textures.size()));
+    if (is_new) {
+      TextureImage image = read_texture(file, where, texture);
+      raw.textures.push_back(is_mask ? mask_of(std::move(image)) : std::move(image));
+    }
+    return known->second;
+  };
   for (const tinyobj::material_t& material : materials) {
     const glm::dvec3 diffuse(material.diffuse[0], material.diffuse[1], material.diffuse[2]);
     const std::string where = fmt::format("material '{}'", printable(material.name));
     raw.materials.push_back({albedo(file, where, diffuse)});
-    if (looks == Looks::textured && !material.diffuse_texname.empty()) {
-      const auto [known, is_new] = texture_of_file.try_emplace(
-          material.diffuse_texname, static_cast<std::uint32_t>(raw.textures.size()));
-      if (is_new) raw.textures.push_back(read_texture(file, where, material.diffuse_texname));
-      raw.materials.back().texture = known->second;
-      if (material.diffuse_texopt.clamp) raw.materials.back().wrap = {TextureWrap::clamp, TextureWrap::clamp};
+    const bool has_colours = !material.diffuse_texname.empty(), has_mask = !material.alpha_texname.empty();
+    if (looks == Looks::textured) {
+      Material& read = raw.materials.back();
+      if (has_colours) read.texture = texture_of(where, material.diffuse_texname, false);
+      if (has_mask) read.cut_out = {texture_of(where, material.alpha_texname, true), k_least_alpha};
+      if (texture_options(file, material).clamp) read.wrap = {TextureWrap::clamp, TextureWrap::clamp};
     }
-    textured += looks == Looks::flat && !material.diffuse_texname.empty();
+    textured += looks == Looks::flat && has_colours;
+    masked += looks == Looks::flat && has_mask;
     emissive += material.emission[0] + material.emission[1] + material.emission[2] > 0.0;
     transparent += material.dissolve < 1.0;
   }
   raw.materials.emplace_back();
   count_warning(report, textured, "materials' textures ignored: surfaces have one colour");
+  count_warning(report, masked, "materials' masks (map_d) ignored: surfaces are opaque");
   count_warning(report, emissive, "materials' emission ignored: only point lights and suns are rendered");
   count_warning(report, transparent, "transparent materials rendered opaque");
 
@@ -263,7 +299,7 @@ Scene import_obj(const std::filesystem::path& file, Looks looks) {
           raw.normals.back()[corner] = normal(file, attributes, corners[corner]);
       }
       std::uint32_t& of_triangle = raw.material_of_triangle.back();
-      if (!raw.materials[of_triangle].texture) continue;
+      if (!is_textured(raw.materials[of_triangle])) continue;
       if (std::any_of(corners, corners + 3, [](const auto& corner) { return corner.texcoord_index < 0; })) {
         of_triangle = untextured(raw, of_triangle, plain);
         ++untextured_triangles;
@@ -271,8 +307,9 @@ Scene import_obj(const std::filesystem::path& file, Looks looks) {
       }
       raw.texture_places.resize(raw.triangles.size());
       for (std::size_t corner = 0; corner < 3; ++corner)
-        raw.texture_places.back()[corner] = texture_place(
-            file, attributes, corners[corner], materials[static_cast<std::size_t>(material)].diffuse_texopt);
+        raw.texture_places.back()[corner] =
+            texture_place(file, attributes, corners[corner],
+                          texture_options(file, materials[static_cast<std::size_t>(material)]));
     }
   }
   if (raw.triangles.size() < survey.triangles)

@@ -83,6 +83,11 @@ void validate(const Light& light, const View& view) {
 
 }  // namespace
 
+bool has_cut_outs(const Geometry& geometry) {
+  return std::any_of(geometry.materials.begin(), geometry.materials.end(),
+                     [](const Material& material) { return material.cut_out.has_value(); });
+}
+
 std::size_t texel_count(const Geometry& geometry) {
   std::size_t count = 0;
   for (const TextureImage& texture : geometry.textures) count += texture.texels.size();
@@ -189,7 +194,27 @@ void validate(const View& view) {
   for (const Light& light : view.lights) validate(light, view);
 }
 
+void show_flat(Scene& scene) {
+  Geometry& geometry = scene.geometry;
+  const auto masks = std::count_if(geometry.materials.begin(), geometry.materials.end(),
+                                   [](const Material& material) { return material.cut_out.has_value(); });
+  if (masks > 0)
+    scene.report.warnings.push_back(
+        fmt::format("alpha masks of materials ignored ({}): surfaces are opaque", masks));
+  for (Material& material : geometry.materials) material = {material.albedo};
+  geometry.textures.clear();
+  geometry.texture_places.clear();
+  geometry.normals.clear();
+}
+
 void override_albedo(Geometry& geometry, glm::vec3 albedo) {
+  if (has_cut_outs(geometry)) {
+    for (Material& material : geometry.materials) {
+      material.albedo = albedo;
+      material.texture.reset();
+    }
+    return;
+  }
   geometry.materials = {{albedo}};
   geometry.textures.clear();
   geometry.texture_places.clear();

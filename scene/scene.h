@@ -22,7 +22,7 @@ inline constexpr double k_largest_coordinate = 1e18;  // [m]
 /// How a model is shown.
 enum class Looks {
   flat,      ///< one colour a material, and flat triangles: all that its shadows depend on
-  textured,  ///< with the textures of its base colours, and its shading normals
+  textured,  ///< with the textures of its base colours, what they cut out of it, and its shading normals
 };
 
 /// An image of base colours: sRGB and alpha of 8 bits each, row 0 at the top.
@@ -34,12 +34,25 @@ struct TextureImage {
 /// What a texture shows beyond its sides.
 enum class TextureWrap : std::uint32_t { repeat = 0, clamp = 1, mirror = 2 };
 
+/// Of a triangle there is a surface only where the alpha of a texture, blended bilinearly between its texels,
+/// is no less than a value.
+struct CutOut {
+  std::uint32_t texture;  ///< of Geometry::textures
+  float least_alpha;      ///< in (0, 1]
+};
+
 /// A Lambert surface.
 struct Material {
   glm::vec3 albedo{0.8f};                     ///< diffuse reflectance, linear RGB in [0, 1]
   std::optional<std::uint32_t> texture = {};  ///< of Geometry::textures: multiplies `albedo`
-  std::array<TextureWrap, 2> wrap = {};       ///< of the texture: left and right, above and below
+  std::array<TextureWrap, 2> wrap = {};       ///< of its textures: left and right, above and below
+  std::optional<CutOut> cut_out = {};
 };
+
+/// Whether its triangles need places in a texture.
+inline bool is_textured(const Material& material) {
+  return material.texture || material.cut_out;
+}
 
 /// Every surface of a scene as one triangle list in world space: right-handed, +Y up, metres.
 ///
@@ -72,6 +85,14 @@ struct Box {
     upper = glm::max(upper, point);
   }
 };
+
+/// Whether the material of a triangle cuts parts out of it.
+inline bool is_cut_out(const Geometry& geometry, std::uint32_t triangle) {
+  return geometry.materials[geometry.material_of_triangle[triangle]].cut_out.has_value();
+}
+
+/// Whether any material does.
+bool has_cut_outs(const Geometry& geometry);
 
 /// Texels of all textures.
 std::size_t texel_count(const Geometry& geometry);
@@ -265,7 +286,10 @@ struct View {
 /// the horizon.
 void validate(const View& view);
 
-/// Gives every triangle the same reflectance, and none a texture.
+/// Leaves out what `Looks::flat` does: textures, what they cut out, of which a warning tells, and normals.
+void show_flat(Scene& scene);
+
+/// Gives every triangle the same reflectance, and none a texture; what is cut out of them stays so.
 void override_albedo(Geometry& geometry, glm::vec3 albedo);
 
 /// A camera that sees all of the geometry, from the front (+Z), slightly above.

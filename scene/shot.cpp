@@ -101,7 +101,7 @@ Scene load_subject(const std::filesystem::path& file, const Shot& whole, std::op
     const std::string problem = count_problem(builtin, *name, *own_triangles);
     if (!problem.empty()) throw shot.error("triangles", problem);
   }
-  if (builtin) return builtin->make(triangles ? triangles : own_triangles);
+  if (builtin) return builtin->make(triangles ? triangles : own_triangles, looks);
   try {
     return import_scene(file.parent_path() / *name, looks);
   } catch (const Error& error) {

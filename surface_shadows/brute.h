@@ -8,6 +8,8 @@ namespace airlight::surface_shadows {
 
 struct BruteOptions {
   Culling cull = Culling::none;
+
+  bool ignores_cut_outs() const { return true; }
 };
 
 /// `brute`: asks the predicate of every triangle, in the order of their numbers. What other exact methods

@@ -22,6 +22,8 @@ struct PsvOptions {
   int seed = 1;  ///< of the random order
   Traversal traversal = Traversal::stack;
   int stack = 32;  ///< nodes that a pixel's stack holds
+
+  bool ignores_cut_outs() const { return true; }
 };
 
 /// `psv`: partitioned shadow volumes, a ternary tree over the triangles' shadow volumes that is made anew

@@ -10,8 +10,14 @@ layout(location = 0) uniform int face;
 layout(location = 1) uniform vec3 light_high;  // the light, world space [m], rounded to float …
 layout(location = 2) uniform vec3 light_low;   // … and what the rounding left
 layout(location = 0) in vec3 position;
+layout(location = 1) in uint first_triangle;  // as of gbuffer.vert, …
+layout(location = 2) in vec2 texture_place;   // … both of cut-outs alone
+layout(location = 0) flat out uint out_first_triangle;
+layout(location = 1) out vec2 out_texture_place;
 
 void main() {
+  out_first_triangle = first_triangle;
+  out_texture_place = texture_place;
   if (k_plane) {
     gl_Position = plane_clip(light, eye_relative(camera, position));
     return;

@@ -144,8 +144,8 @@ TEST_P(Pictures, AreThoseOfTheReference) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Pictures,
-                         testing::Values(Picture{"forest", 0.08}, Picture{"lighthouse", 0.04},
-                                         Picture{"harbour", 0.02}));
+                         testing::Values(Picture{"forest", 0.08}, Picture{"jali", 0.04},
+                                         Picture{"lighthouse", 0.04}, Picture{"harbour", 0.02}));
 
 TEST(LitRuns, GoOnBeyondTheLastCellOfAHalfPlane) {
   // A screen under open sky: half-planes that meet it have no cells beyond its edge, and their last ones are

@@ -14,6 +14,7 @@
 #include "media/march.h"
 #include "media/vsv.h"
 #include "scene/error.h"
+#include "support/cut_outs.h"
 #include "support/paths.h"
 
 namespace airlight::quality {
@@ -283,12 +284,23 @@ TEST(MethodChoice, ThatTakesPartsForSolidsWarnsOfOpenOnes) {
   scene::Scene scene;
   scene.geometry = open_triangle();
   const auto surfaces = parse_surfaces("shadow-map");
-  warn_of_open_parts(parse_volumes("vsv"), surfaces, scene);
+  warn_of_geometry(parse_volumes("vsv"), surfaces, scene);
   EXPECT_TRUE(scene.report.warnings.empty());
-  warn_of_open_parts(parse_volumes("vsv:populate=screen-space"), surfaces, scene);
+  warn_of_geometry(parse_volumes("vsv:populate=screen-space"), surfaces, scene);
   ASSERT_EQ(scene.report.warnings.size(), 1u);
   EXPECT_THAT(scene.report.warnings[0],
               testing::AllOf(HasSubstr("vsv:populate=screen-space"), HasSubstr("3 edges with one triangle")));
+}
+
+TEST(MethodChoice, ThatTakesTrianglesWholeWarnsOfCutOuts) {
+  scene::Scene scene;
+  scene.geometry = tests::half_cut_away();
+  warn_of_geometry(parse_volumes("vsv,march,froxel,reference"), parse_surfaces("shadow-map,vsv,reference"),
+                   scene);
+  EXPECT_TRUE(scene.report.warnings.empty());
+  warn_of_geometry(parse_volumes("vsv:populate=conservative"), parse_surfaces("psv,brute"), scene);
+  ASSERT_EQ(scene.report.warnings.size(), 1u);
+  EXPECT_THAT(scene.report.warnings[0], HasSubstr("vsv:populate=conservative, psv, brute cannot show"));
 }
 
 TEST(SharedReference, TracesTheTruthOnceAndChargesForItTwice) {

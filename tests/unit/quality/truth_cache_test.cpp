@@ -104,6 +104,15 @@ TEST_F(Cache, TellsApartWhateverATruthDependsOn) {
   });
   expect_new("cone", [&] { view_.lights[0].cone.emplace(); });
   expect_new("range", [&] { view_.lights[0].range = 100; });
+  const auto cut_out = [&](std::uint8_t alpha, float least, float place) {
+    geometry_.textures = {{{1, 1}, {{0, 0, 0, alpha}}}};
+    geometry_.texture_places.assign(geometry_.triangles.size(), {{{place, 0}, {1, 0}, {0, 1}}});
+    geometry_.materials[0].cut_out = scene::CutOut{0, least};
+  };
+  expect_new("what is cut out", [&] { cut_out(200, 0.5f, 0); });
+  expect_new("a mask", [&] { cut_out(100, 0.5f, 0); });
+  expect_new("its least alpha", [&] { cut_out(200, 0.75f, 0); });
+  expect_new("its place", [&] { cut_out(200, 0.5f, 0.5f); });
   SharedReference refined(geometry_, view_, {}, folder_);
   refined.exact(0, 2);
   EXPECT_EQ(files(), before + 1) << "refinement";

@@ -166,8 +166,46 @@ TEST_F(GltfLooks, ShowsAPrimitiveWithoutPlacesInItsMaterialsColour) {
   EXPECT_THAT(scene.report.warnings, Contains(HasSubstr("1 triangles without texture coordinates")));
 }
 
+TEST_F(GltfLooks, ReadsWhatMasksCutOut) {
+  json document = textured({{"uri", data_uri(four_texels(), "image/png")}});
+  json& material = document["materials"][0];
+  const auto cut_out = [&] { return material_of(load(document), 0).cut_out; };
+  material["alphaCutoff"] = 0.25;
+  EXPECT_FALSE(cut_out()) << "it is opaque";
+  material["alphaMode"] = "MASK";
+  ASSERT_TRUE(cut_out());
+  EXPECT_EQ(cut_out()->texture, 0u);
+  EXPECT_EQ(cut_out()->least_alpha, 0.25f);
+  EXPECT_THAT(load(document).report.warnings, IsEmpty());
+  material["pbrMetallicRoughness"]["baseColorFactor"][3] = 0.5;  // multiplies the texture's alpha
+  EXPECT_EQ(cut_out()->least_alpha, 0.5f);
+  material.erase("alphaCutoff");
+  EXPECT_EQ(cut_out()->least_alpha, 1.0f) << "a half is the default";
+  material["alphaCutoff"] = 0;
+  EXPECT_FALSE(cut_out());
+
+  // Nothing of it is left.
+  material["alphaCutoff"] = 0.75;
+  const Scene nothing = load(document);
+  EXPECT_TRUE(nothing.geometry.triangles.empty());
+  EXPECT_THAT(nothing.report.warnings, Contains(HasSubstr("whose material cuts all of them away")));
+
+  looks_ = Looks::flat;
+  EXPECT_FALSE(cut_out());
+  EXPECT_THAT(load(document).report.warnings, Contains(HasSubstr("alpha masks of materials ignored (1)")));
+  material["alphaCutoff"] = "x";
+  expect_error(document, "alphaCutoff");
+}
+
+TEST_F(GltfLooks, KeepsTrianglesWithoutPlacesWhole) {
+  json document = textured({{"uri", data_uri(four_texels(), "image/png")}});
+  document["materials"][0]["alphaMode"] = "MASK";
+  primitive(document)["attributes"].erase("TEXCOORD_0");
+  EXPECT_FALSE(material_of(load(document), 0).cut_out);
+}
+
 TEST_F(GltfLooks, RefusesTexturesThatCannotBeShownAndNamesTheirMaterial) {
-  const std::string where = "material 0 'brick', base-colour texture ";
+  const std::string where = "material 0 'brick', texture ";
   expect_error(textured({{"uri", "none.png"}}), where + "'none.png': there is no such file");
   write("broken.png", four_texels().substr(0, 60));
   expect_error(textured({{"uri", "broken.png"}}), where + "'broken.png': it is a broken PNG");
@@ -311,6 +349,36 @@ TEST_F(ObjLooks, MovesAndScalesTexturesByTheirOptions) {
                 {{{0.5f, 0.75f}, {2.5f, 0.75f}, {2.5f, -2.25f}}});
 }
 
+TEST_F(ObjLooks, ReadsWhatMasksCutOut) {
+  const std::vector<glm::u8vec4> grey = {{10, 10, 10, 255}, {200, 200, 200, 255}};
+  write("grey.png", png_file({2, 1}, grey));
+  write("four.png", four_texels());
+  const std::string face = k_square + "usemtl m\nf 1/1 2/2 3/3\n";
+  write("m.mtl", "newmtl m\nmap_Kd -clamp on four.png\nmap_d -clamp on grey.png\n");
+  const Scene scene = load("a.obj", face);
+  const Material& material = material_of(scene, 0);
+  ASSERT_TRUE(material.cut_out);
+  EXPECT_EQ(material.cut_out->least_alpha, 0.5f);
+  EXPECT_EQ(material.wrap[0], TextureWrap::clamp);
+  EXPECT_NE(material.cut_out->texture, material.texture);
+  const std::vector<glm::u8vec4>& mask = scene.geometry.textures.at(material.cut_out->texture).texels;
+  EXPECT_EQ(mask.at(0).a, 10) << "an opaque image's red";
+  EXPECT_EQ(mask.at(1).a, 200);
+  EXPECT_THAT(scene.report.warnings, IsEmpty());
+
+  // By a mask alone, moved; an image's alpha, where it has any.
+  write("clear.png", png_file<glm::u8vec4>({1, 1}, {{255, 255, 255, 40}}));
+  write("m.mtl", "newmtl m\nmap_d -s 2 2 1 clear.png\n");
+  const Scene masked = load("a.obj", face);
+  expect_places(masked, 0, {{{0, 1}, {2, 1}, {2, -1}}});
+  EXPECT_EQ(masked.geometry.textures.at(material_of(masked, 0).cut_out->texture).texels.at(0).a, 40);
+
+  write("m.mtl", "newmtl m\nmap_Kd four.png\nmap_d -s 2 2 1 grey.png\n");
+  expect_error("a.obj", face, "material 'm': its map_Kd and its map_d lie differently");
+  looks_ = Looks::flat;
+  EXPECT_THAT(load("a.obj", face).report.warnings, Contains(HasSubstr("1 materials' masks (map_d) ignored")));
+}
+
 TEST_F(ObjLooks, ReadsNormalsOfTheCornersThatHaveThem) {
   write("m.mtl", "newmtl m\n");
   const Scene scene = load("a.obj", k_square + "f 1//1 2//2 3\nf 1 3 4\n");
@@ -332,7 +400,7 @@ TEST_F(ObjLooks, RefusesTexturesThatCannotBeShownAndNamesTheirMaterial) {
   write("m.mtl", "newmtl m\nmap_Kd none.png\n");
   const std::string face = k_square + "usemtl m\nf 1/1 2/2 3/3\n";
   expect_error("a.obj", face, "none.png: there is no such file");
-  expect_error("a.obj", face, "a.obj, material 'm', base-colour texture");
+  expect_error("a.obj", face, "a.obj, material 'm', texture");
   write("none.png", four_texels().substr(0, 60));
   expect_error("a.obj", face, "none.png': it is a broken PNG");
   write("none.png", four_texels());

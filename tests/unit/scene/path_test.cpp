@@ -184,6 +184,7 @@ TEST(PathsOfTheProject, Load) {
                                       {"window_walk", "window"},
                                       {"nave_evening", "nave"},
                                       {"forest_walk", "forest"},
+                                      {"jali_morning", "jali"},
                                       {"lighthouse_turn", "lighthouse"},
                                       {"harbour_evening", "harbour"}}) {
     const Scene scene = find_builtin(builtin)->make({});
