@@ -47,7 +47,7 @@ CLI::App& add_image_command(CLI::App& app, Options& options, const char* name, c
 /// be.
 /// @returns Options::given
 std::vector<std::pair<std::string, std::string>> read_words(const CLI::App& app, int argc, char** argv) {
-  constexpr const char* k_commands = "use view, render, compare, sweep, front, scenes or info";
+  constexpr const char* k_commands = "use view, render, compare, sweep, front, image, scenes or info";
   if (argc < 2) throw Error(ExitCode::usage, "command line", "it names no command", k_commands);
   if (argv[1][0] == '-') {
     if (app.get_option_no_throw(argv[1])) return {};
@@ -58,7 +58,8 @@ std::vector<std::pair<std::string, std::string>> read_words(const CLI::App& app,
   const CLI::App& command = *commands[0];
   const std::string help = fmt::format("see airlight {} --help", argv[1]);
   constexpr int k_any = 1 << 30;
-  int names_left = command.get_option_no_throw("DIR") ? k_any : command.get_option_no_throw("SCENE") ? 1 : 0;
+  const auto has = [&](const char* name) { return command.get_option_no_throw(name) != nullptr; };
+  int names_left = has("DIR") || has("FILE") ? k_any : has("SCENE") ? 1 : 0;
   std::vector<std::pair<std::string, std::string>> given;
   std::set<const CLI::Option*> seen;
   for (int i = 2; i < argc; ++i) {
@@ -183,6 +184,27 @@ int run(int argc, char** argv) {
                              "what says how far a run is from the truth: rrmse (default: of pixels that see "
                              "the same surface as the truth), p99, flip, flicker"});
 
+  CLI::App& image_command = *app.add_subcommand(
+      "image", "metrics of OpenEXR images, whoever rendered them: diff, error, flip, info or crop");
+  image_command
+      .add_option("FILE", options.places,
+                  "what is asked and of which images:\n"
+                  "diff A.exr B.exr -o FILE.exr   A - B, channel by channel, and as a heat map beside it\n"
+                  "error A.exr B.exr              how far A is from B\n"
+                  "flip A.exr B.exr               the mean of FLIP; -o FILE.png is its map\n"
+                  "info A.exr                     size, metadata, and the range of each channel\n"
+                  "crop A.exr -o FILE.exr         the part of --crop")
+      ->type_name("");
+  image_command.add_option("-o", options.output, "the image that is written")->type_name("FILE");
+  add_option(image_command, {"layer", "NAME",
+                             "of diff, error, flip: NAME.R, NAME.G, NAME.B, as in airlight "
+                             "(default: R, G, B)"});
+  add_option(image_command, {"exposure", "E", "of flip: LDR-FLIP at this exposure, instead of HDR-FLIP"});
+  add_option(image_command,
+             {"crop", "X,Y,W,H", "of crop: the corner at the top left, and the size [pixels]"});
+  add_option(image_command,
+             {"json", "FILE", "of error: write it there too; - means standard output, instead of the lines"});
+
   CLI::App& scenes_command = *app.add_subcommand("scenes", "lists the built-in scenes");
   CLI::App& info_command = *app.add_subcommand("info", "tells the driver and its limits");
 
@@ -212,6 +234,8 @@ int run(int argc, char** argv) {
     sweep(options);
   } else if (front_command.parsed()) {
     front(options);
+  } else if (image_command.parsed()) {
+    image(options);
   } else if (scenes_command.parsed()) {
     list_scenes();
   } else if (info_command.parsed()) {

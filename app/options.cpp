@@ -138,8 +138,9 @@ std::span<const OptionLine> common_options() {
         {"triangles", "N", triangles_help()},
         {"looks", "flat|textured",
          "what a model's surfaces look like: one colour a material and flat "
-         "triangles, or the textures of base colours and shading normals; shadows "
-         "and airlight are the same (default: textured in render and view, else flat)"}};
+         "triangles, or the textures of base colours, what masks cut out, and shading "
+         "normals; but for cut-outs, shadows and airlight are the same (default: textured "
+         "in render and view, else flat)"}};
     for (const scene::FieldInfo* field : scene::every_field())
       lines.push_back({field->name, field->placeholder, field->help()});
     lines.push_back(

@@ -32,7 +32,7 @@ struct Options {
   /// Each option that was typed, by its name without dashes, and its value, in their order: those of lights
   /// may be there several times.
   std::vector<std::pair<std::string, std::string>> given;
-  std::vector<std::string> places;  ///< DIR of `front`
+  std::vector<std::string> places;  ///< DIR of `front`, words of `image`
   std::string output;               ///< -o; empty without
   bool quiet = false;
   bool debug = false;  ///< of `compare`

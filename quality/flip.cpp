@@ -347,11 +347,16 @@ std::vector<float> map(std::span<const glm::vec3> x, std::span<const glm::vec3> 
 
 }  // namespace flip
 
-double ldr_flip(std::span<const glm::vec3> x, std::span<const glm::vec3> r, glm::ivec2 size, float exposure) {
+std::vector<float> ldr_flip_map(std::span<const glm::vec3> x, std::span<const glm::vec3> r, glm::ivec2 size,
+                                float exposure) {
   require_images(x, r, size);
-  return mean(worst_map(x, r, size, {&exposure, 1}, [](const glm::vec3& radiance, float factor) {
+  return worst_map(x, r, size, {&exposure, 1}, [](const glm::vec3& radiance, float factor) {
     return glm::clamp(factor * radiance, 0.0f, 1.0f);
-  }));
+  });
+}
+
+double ldr_flip(std::span<const glm::vec3> x, std::span<const glm::vec3> r, glm::ivec2 size, float exposure) {
+  return mean(ldr_flip_map(x, r, size, exposure));
 }
 
 std::vector<float> flip_exposures(std::span<const glm::vec3> r, double floor) {
@@ -381,14 +386,20 @@ std::vector<float> flip_exposures(std::span<const glm::vec3> r, double floor) {
   return factors;
 }
 
-double hdr_flip(std::span<const glm::vec3> x, std::span<const glm::vec3> r, glm::ivec2 size, double floor) {
+std::vector<float> hdr_flip_map(std::span<const glm::vec3> x, std::span<const glm::vec3> r, glm::ivec2 size,
+                                double floor) {
   require_images(x, r, size);
   const std::vector<float> exposures = flip_exposures(r, floor);
-  if (exposures.empty()) return std::numeric_limits<double>::quiet_NaN();
-  return mean(worst_map(x, r, size, exposures, [](const glm::vec3& radiance, float exposure) {
+  if (exposures.empty()) return {};
+  return worst_map(x, r, size, exposures, [](const glm::vec3& radiance, float exposure) {
     const glm::vec3 shown = exposure * radiance;
     return glm::vec3(flip::tone_mapped(shown.r), flip::tone_mapped(shown.g), flip::tone_mapped(shown.b));
-  }));
+  });
+}
+
+double hdr_flip(std::span<const glm::vec3> x, std::span<const glm::vec3> r, glm::ivec2 size, double floor) {
+  const std::vector<float> map = hdr_flip_map(x, r, size, floor);
+  return map.empty() ? std::numeric_limits<double>::quiet_NaN() : mean(map);
 }
 
 }  // namespace airlight::quality

@@ -19,6 +19,10 @@ namespace airlight::quality {
 /// @throws scene::Error (bad_file) where the lengths differ or a value is NaN or infinite
 double ldr_flip(std::span<const glm::vec3> x, std::span<const glm::vec3> r, glm::ivec2 size, float exposure);
 
+/// The same of each pixel.
+std::vector<float> ldr_flip_map(std::span<const glm::vec3> x, std::span<const glm::vec3> r, glm::ivec2 size,
+                                float exposure);
+
 /// The mean over pixels of HDR-ꟻLIP: of each pixel the largest LDR-ꟻLIP over the exposures of
 /// `flip_exposures`, the images tone-mapped by Narkowicz' fit of ACES. NaN where the reference is dark.
 /// @param x, r linear RGB, size.x · size.y each
@@ -26,6 +30,10 @@ double ldr_flip(std::span<const glm::vec3> x, std::span<const glm::vec3> r, glm:
 /// @throws scene::Error (bad_file) as ldr_flip does
 double hdr_flip(std::span<const glm::vec3> x, std::span<const glm::vec3> r, glm::ivec2 size,
                 double floor = 0.0);
+
+/// The same of each pixel; empty where the reference is dark.
+std::vector<float> hdr_flip_map(std::span<const glm::vec3> x, std::span<const glm::vec3> r, glm::ivec2 size,
+                                double floor = 0.0);
 
 /// The exposures of HDR-ꟻLIP, as factors: from the one that maps the brightest pixel of the reference to 0.85
 /// of white to the one that does so with its median, about a stop apart, two at least. **Deviation:** the

@@ -1,6 +1,7 @@
 #include "quality/pictures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -55,6 +56,20 @@ float automatic_exposure(const std::vector<glm::vec3>& radiance) {
       percentile > 0.0f ? percentile : *std::max_element(brightest.begin() + rank, brightest.end());
   const float exposure = 0.8f / white;
   return white > 0.0f && std::isfinite(exposure) ? exposure : 1.0f;
+}
+
+std::vector<glm::vec3> flip_colours(const std::vector<float>& map) {
+  static constexpr std::array<glm::vec3, 5> k_stops = {
+      glm::vec3(0.0f), glm::vec3(0.08f, 0.006f, 0.2f), glm::vec3(0.47f, 0.04f, 0.19f),
+      glm::vec3(0.97f, 0.25f, 0.12f), glm::vec3(1.0f, 0.98f, 0.9f)};
+  std::vector<glm::vec3> colours;
+  colours.reserve(map.size());
+  for (const float value : map) {
+    const float place = std::clamp(value, 0.0f, 1.0f) * static_cast<float>(k_stops.size() - 1);
+    const std::size_t stop = std::min(static_cast<std::size_t>(place), k_stops.size() - 2);
+    colours.push_back(glm::mix(k_stops[stop], k_stops[stop + 1], place - static_cast<float>(stop)));
+  }
+  return colours;
 }
 
 std::vector<glm::vec3> error_colours(const std::vector<glm::vec3>& x, const std::vector<glm::vec3>& r) {

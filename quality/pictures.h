@@ -33,6 +33,9 @@ constexpr double k_error_white = 1e-3, k_error_full = 1.0;
 /// logarithmic up to `k_error_full`; red where x is too bright, blue where it is too dark. Linear colours.
 std::vector<glm::vec3> error_colours(const std::vector<glm::vec3>& x, const std::vector<glm::vec3>& r);
 
+/// ꟻLIP from 0 to 1 in colours that grow brighter: black, violet, red, yellow, white. Linear colours.
+std::vector<glm::vec3> flip_colours(const std::vector<float>& map);
+
 /// The part of the lights that each surface sees, in grey: black where no surface is seen. Over it red where
 /// that is wrong for a light, else yellow where it is undecided for one; a light that was skipped counts in
 /// nothing. Linear colours.

@@ -108,6 +108,29 @@ Json number_json(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
+Json airlight_json(const AirlightError& error, double flip) {
+  return {{"dark", error.is_dark},
+          {"bias", number_json(error.bias)},
+          {"rmse", error.rmse},
+          {"rrmse", number_json(error.rrmse)},
+          {"mae", number_json(error.mae)},
+          {"p99", number_json(error.p99)},
+          {"max", number_json(error.max)},
+          {"relmse", number_json(error.relmse)},
+          {"flip", number_json(flip)},
+          {"leaked", number_json(error.leaked)},
+          {"spurious", number_json(error.spurious)}};
+}
+
+Json same_surface_json(const SameSurfaceError& error) {
+  return {{"dark", error.is_dark},
+          {"bias", number_json(error.bias)},
+          {"rrmse", number_json(error.rrmse)},
+          {"leaked", number_json(error.leaked)},
+          {"spurious", number_json(error.spurious)},
+          {"left_out_pixels", error.left_out_pixels}};
+}
+
 Json interval_json(const MedianInterval& interval) {
   return {{"median", number_json(interval.median)},
           {"low", number_json(interval.low)},
@@ -123,7 +146,6 @@ std::string text_of_json(const Json& json, int indentation) {
 }
 
 Json run_json(const Run& run, const scene::View& view) {
-  const AirlightError& error = run.errors.airlight;
   Json json = {{"volume", run.volume},
                {"surface", run.surface},
                {"name", run.name},
@@ -139,25 +161,8 @@ Json run_json(const Run& run, const scene::View& view) {
                {"bytes", run.cost.bytes},
                {"counters", run.cost.counters},
                {"error",
-                {{"airlight",
-                  {{"dark", error.is_dark},
-                   {"bias", number_json(error.bias)},
-                   {"rmse", error.rmse},
-                   {"rrmse", number_json(error.rrmse)},
-                   {"mae", number_json(error.mae)},
-                   {"p99", number_json(error.p99)},
-                   {"max", number_json(error.max)},
-                   {"relmse", number_json(error.relmse)},
-                   {"flip", number_json(run.errors.flip)},
-                   {"leaked", number_json(error.leaked)},
-                   {"spurious", number_json(error.spurious)}}},
-                 {"airlight_same_surface",
-                  {{"dark", run.errors.same_surface.is_dark},
-                   {"bias", number_json(run.errors.same_surface.bias)},
-                   {"rrmse", number_json(run.errors.same_surface.rrmse)},
-                   {"leaked", number_json(run.errors.same_surface.leaked)},
-                   {"spurious", number_json(run.errors.same_surface.spurious)},
-                   {"left_out_pixels", run.errors.same_surface.left_out_pixels}}},
+                {{"airlight", airlight_json(run.errors.airlight, run.errors.flip)},
+                 {"airlight_same_surface", same_surface_json(run.errors.same_surface)},
                  {"surface", surface_json(run.errors.surface)}}}};
   if (run.cost.rays > 0) {
     json["rays"] = run.cost.rays;

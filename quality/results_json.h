@@ -13,6 +13,10 @@ nlohmann::ordered_json number_json(double value);
 
 nlohmann::ordered_json interval_json(const MedianInterval& interval);
 
+/// Of `error` of a run: "airlight" and "airlight_same_surface".
+nlohmann::ordered_json airlight_json(const AirlightError& error, double flip);
+nlohmann::ordered_json same_surface_json(const SameSurfaceError& error);
+
 nlohmann::ordered_json device_json(const gpu::Device& device, unsigned cores);
 
 /// A run, as in results.json.

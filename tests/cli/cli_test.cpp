@@ -161,6 +161,50 @@ TEST_F(Commands, HelpExplainsEveryFieldOfAView) {
   }
 }
 
+TEST_F(Commands, ImageMeasuresImages) {
+  for (const char* volume : {"vsv", "march:steps=8"})
+    ASSERT_EQ(airlight({"render", "cornell", "--size", "24x16", "--shadow-map", "64", "--volume", volume,
+                        "-o", std::string(volume).substr(0, 3) + ".exr", "--quiet"})
+                  .exit_code,
+              0);
+  const Result same = airlight({"image", "error", "vsv.exr", "vsv.exr", "--json", "-"});
+  EXPECT_EQ(same.exit_code, 0) << same.err;
+  EXPECT_EQ(Json::parse(same.out)["airlight"]["rmse"], 0.0);
+  const Json error = Json::parse(
+      airlight({"image", "error", "mar.exr", "vsv.exr", "--layer", "airlight", "--json", "-"}).out);
+  EXPECT_GT(error["airlight"]["rrmse"], 0.001);
+  EXPECT_EQ(error["airlight_same_surface"]["left_out_pixels"], 0);
+  EXPECT_THAT(airlight({"image", "error", "mar.exr", "vsv.exr"}).out, HasSubstr("same-surface rrmse"));
+
+  EXPECT_EQ(airlight({"image", "flip", "vsv.exr", "vsv.exr"}).out, "0\n");
+  EXPECT_EQ(airlight({"image", "flip", "mar.exr", "vsv.exr", "--exposure", "2", "-o", "flip.png"}).exit_code,
+            0);
+  EXPECT_EQ(read_text(file("flip.png")).substr(1, 3), "PNG");
+
+  EXPECT_EQ(airlight({"image", "diff", "mar.exr", "vsv.exr", "-o", "diff.exr"}).exit_code, 0);
+  EXPECT_EQ(read_text(file("diff.png")).substr(1, 3), "PNG");
+  const quality::Image diff = quality::read_exr(file("diff.exr"));
+  EXPECT_EQ(diff.channels.at("airlight.R")[7],
+            quality::read_exr(file("mar.exr")).channels.at("airlight.R")[7] -
+                quality::read_exr(file("vsv.exr")).channels.at("airlight.R")[7]);
+
+  EXPECT_EQ(airlight({"image", "crop", "vsv.exr", "--crop", "4,0,8,16", "-o", "part.exr"}).exit_code, 0);
+  EXPECT_THAT(airlight({"image", "info", "part.exr"}).out, HasSubstr("8x16 pixels\n"));
+
+  expect_one_line_error(airlight({"image"}), 2);
+  expect_one_line_error(airlight({"image", "blur", "vsv.exr"}), 2);
+  expect_one_line_error(airlight({"image", "error", "vsv.exr"}), 2);
+  expect_one_line_error(airlight({"image", "info", "vsv.exr", "--layer", "airlight"}), 2);
+  expect_one_line_error(airlight({"image", "info", "vsv.exr", "-o", "x.exr"}), 2);
+  expect_one_line_error(airlight({"image", "diff", "vsv.exr", "mar.exr"}), 2);
+  expect_one_line_error(airlight({"image", "flip", "vsv.exr", "mar.exr", "--exposure", "0"}), 2);
+  for (const char* part : {"1,2,3", "1,2,3,x", "0,0,25,16", "-1,0,2,2", "1,2,3,4,5"})
+    expect_one_line_error(airlight({"image", "crop", "vsv.exr", "--crop", part, "-o", "part.exr"}), 2);
+  expect_one_line_error(airlight({"image", "error", "part.exr", "vsv.exr"}), 3);
+  expect_one_line_error(airlight({"image", "error", "nosuch.exr", "vsv.exr"}), 3);
+  expect_one_line_error(airlight({"image", "error", "vsv.exr", "vsv.exr", "--layer", "glow"}), 3);
+}
+
 TEST_F(Commands, ScenesListsEveryBuiltinScene) {
   const Result result = airlight({"scenes"});
   EXPECT_EQ(result.exit_code, 0);
