@@ -193,8 +193,8 @@ void MetricTree::query(const frame::FrameInputs& inputs, const gpu::Texture& vis
   inputs.timer.time("surface_query", [&] { run(query_, inputs, visibility); });
 }
 
-void MetricTree::count(const frame::FrameInputs& inputs, Counted counted, const gpu::Texture& counts) {
-  run(query_pass(counted), inputs, counts);
+void MetricTree::count_nodes(const frame::FrameInputs& inputs, const gpu::Texture& counts) {
+  run(query_pass(Counted::nodes), inputs, counts);
 }
 
 std::uint32_t MetricTree::always_asked() const {
@@ -205,7 +205,7 @@ std::uint32_t MetricTree::always_asked() const {
 std::map<std::string, double> MetricTree::counters(const frame::FrameInputs& inputs) {
   const gpu::Texture of_pixels(gpu::Format::r32f, inputs.view.size);
   const auto total = [&](Counted counted) {
-    count(inputs, counted, of_pixels);
+    run(query_pass(counted), inputs, of_pixels);
     double sum = 0.0;
     for (const float of_pixel : of_pixels.read<float>()) sum += static_cast<double>(of_pixel);
     return sum;

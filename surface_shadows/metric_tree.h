@@ -36,12 +36,9 @@ class MetricTree : public frame::SurfaceShadow {
   /// "surface_nodes" of the tree that pixels visit, "surface_clusters" and "surface_triangles" that they ask.
   std::map<std::string, double> counters(const frame::FrameInputs& inputs) override;
 
-  /// What `count` writes in the place of visibility.
-  enum class Counted : std::uint32_t { none, nodes, clusters, triangles };
-
-  /// How many each pixel visited or asked, of the tree that the last `query` made.
+  /// How many nodes each pixel visited, instead of visibility, of the tree that the last `query` made.
   /// @param counts r32f
-  void count(const frame::FrameInputs& inputs, Counted counted, const gpu::Texture& counts);
+  void count_nodes(const frame::FrameInputs& inputs, const gpu::Texture& counts);
 
   /// Of the scene that the last `query` was of.
   std::uint32_t cluster_count() const { return cluster_count_; }
@@ -50,6 +47,9 @@ class MetricTree : public frame::SurfaceShadow {
   std::uint32_t always_asked() const;
 
  private:
+  /// What a query writes in the place of visibility, a pixel.
+  enum class Counted : std::uint32_t { none, nodes, clusters, triangles };
+
   /// What rounding and the scene's size make of the light's distances.
   struct Distances {
     float error;          ///< see Observer of shaders/surface_shadows/apparent.glsl

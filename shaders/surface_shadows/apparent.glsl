@@ -127,6 +127,18 @@ FUNCTION vec2 distances_to(IN(Observer) observer, IN(Apparent) pivot, IN(Apparen
   return vec2(max(nearest - other.width, 0.0f), farthest + other.width);
 }
 
+// Where what is seen of a capsule lies for a pivot and a distance δ: a point of it that is at most δ from the pivot's arc, as its
+// distance is rounded, is not of a capsule that is far, one that is more is not of one that is near.
+CONST uint k_near = 0u;
+CONST uint k_far = 1u;
+CONST uint k_overlap = 2u;
+
+// @param distances to the capsule  @param slack k_decisions errors of a distance
+FUNCTION uint side_of(IN(vec2) distances, float limit, float slack) {
+  if (distances.y + slack <= limit) return k_near;
+  return distances.x - slack > limit ? k_far : k_overlap;
+}
+
 // A capsule in the light's coordinates.
 struct Capsule {
   vec3 from;

@@ -15,11 +15,6 @@
 #include "surface_shadows/apparent.glsl"
 #include "surface_shadows/depths.glsl"
 
-// Children of a node.
-const uint k_near = 0u;
-const uint k_far = 1u;
-const uint k_overlap = 2u;
-
 const float k_no_place = -1.0;
 
 struct MetricNode {

@@ -38,8 +38,7 @@ void main() {
       atomicMin(nodes[next].least_depth, own_depth);
       Apparent pivot = Apparent(nodes[next].from, nodes[next].to, nodes[next].width);
       vec2 distances = distances_to(observer, pivot, cone);
-      float limit = partition_distance(root_distance, near_steps);
-      child = distances.y + slack <= limit ? k_near : distances.x - slack > limit ? k_far : k_overlap;
+      child = side_of(distances, partition_distance(root_distance, near_steps), slack);
       if (child == k_overlap) {
         atomicMin(nodes[next].overlap_least, floatBitsToUint(distances.x));
         atomicMax(nodes[next].overlap_most, floatBitsToUint(distances.y));

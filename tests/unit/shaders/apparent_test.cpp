@@ -281,11 +281,14 @@ double exact(rough::Rough value) {
   return static_cast<double>(static_cast<float>(value));
 }
 
+rough::vec3 rough_point(const vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
 TEST_P(ApparentInRoughArithmetic, DistancesKeepTheirError) {
   tests::Random random(6);
   for (int i = 0; i < 20000; ++i) {
     for (const Observer& observer : observers(random)) {
-      const auto rough_point = [](const vec3& v) { return rough::vec3(v.x, v.y, v.z); };
       const rough::Observer who{{rough_point(observer.rays.travels), observer.rays.is_sun}, observer.error};
       const Capsule capsule = any_capsule(random);
       if (seen_capsule(observer, capsule).is_all) continue;
@@ -306,6 +309,39 @@ TEST_P(ApparentInRoughArithmetic, DistancesKeepTheirError) {
       EXPECT_GE(found, least - spacing(observer, between) - static_cast<double>(observer.error));
     }
   }
+}
+
+// Limits where a capsule without width is just near of them, or just far; a query rounds as badly as it can.
+TEST_P(ApparentInRoughArithmetic, APointIsOnTheSideOfItsCapsule) {
+  tests::Random random(7);
+  int near = 0, far = 0;
+  for (int i = 0; i < 20000; ++i) {
+    for (const Observer& observer : observers(random)) {
+      const rough::Observer who{{rough_point(observer.rays.travels), observer.rays.is_sun}, observer.error};
+      const float slack = k_decisions * observer.error;
+      const auto any_place = [&] { return place_of(who, rough_point(vec3(random.in_box(5.0)))); };
+      const rough::vec3 from = any_place(), to = i % 2 == 0 ? from : any_place(), other = any_place();
+      const rough::vec2 distances = distances_to(who, {from, to, 0.0f}, {other, other, 0.0f});
+      const rough::Rough found = distance_to_arc(who, from, to, other);
+      for (int step = -3; step <= 3; ++step) {
+        for (const double beyond : {exact(distances.y) + static_cast<double>(slack),
+                                    exact(distances.x) - static_cast<double>(slack)}) {
+          const rough::Rough limit(static_cast<float>(beyond * (1.0 + 1e-7 * step)));
+          const uint side = side_of(distances, limit, slack);
+          if (side == k_near) {
+            ++near;
+            EXPECT_TRUE(found <= limit) << i;
+          }
+          if (side == k_far) {
+            ++far;
+            EXPECT_TRUE(found > limit) << i;
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(near, 10000);
+  EXPECT_GT(far, 10000);
 }
 
 INSTANTIATE_TEST_SUITE_P(Leaning, ApparentInRoughArithmetic, testing::Values(-1, 0, 1));
