@@ -1,6 +1,8 @@
 #pragma once
 
-#include <vector>
+#include <cstdint>
+#include <map>
+#include <string>
 
 #include "frame/method.h"
 #include "frame/screen_pass.h"
