@@ -1,8 +1,8 @@
 # What ./run and ./test share. Sourced from the root of the checkout.
 
 build_packages=(
-  ca-certificates ccache cmake g++ glslang-tools libcli11-dev libegl-dev libegl1 libembree-dev libepoxy-dev libfmt-dev
-  libgl1-mesa-dri libglfw3-dev libglm-dev libimgui-dev libjpeg62-turbo-dev libopenexr-dev libpng-dev libtinygltf-dev
+  ca-certificates ccache cmake g++ glslang-tools libcli11-dev libegl-dev libegl1 libeigen3-dev libembree-dev libepoxy-dev
+  libfmt-dev libgl1-mesa-dri libglfw3-dev libglm-dev libimgui-dev libjpeg62-turbo-dev libopenexr-dev libpng-dev libtinygltf-dev
   libtinyobjloader-dev
   libtomlplusplus-dev ninja-build nlohmann-json3-dev pkg-config)
 test_packages=(libgmock-dev libgtest-dev mesa-vulkan-drivers openbox xdotool xvfb)

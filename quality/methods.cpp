@@ -13,6 +13,7 @@
 #include "scene/error.h"
 #include "scene/numbers.h"
 #include "surface_shadows/brute.h"
+#include "surface_shadows/metric_tree.h"
 #include "surface_shadows/psv.h"
 #include "surface_shadows/shadow_map_lookup.h"
 
@@ -33,8 +34,9 @@ std::span<const VolumeMethod> volume_methods() {
 
 std::span<const SurfaceMethod> surface_methods() {
   static const std::vector<SurfaceMethod> methods = {
-      frame::no_shadow_method(),     surface_shadows::shadow_map_method(), epipolar::surface_lookup_method(),
-      surface_shadows::psv_method(), surface_shadows::brute_method(),      reference_surface_method(),
+      frame::no_shadow_method(),     surface_shadows::shadow_map_method(),  epipolar::surface_lookup_method(),
+      surface_shadows::psv_method(), surface_shadows::metric_tree_method(), surface_shadows::brute_method(),
+      reference_surface_method(),
   };
   return methods;
 }

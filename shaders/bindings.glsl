@@ -40,6 +40,11 @@ CONST uint k_parts_unit = 14u;        // While occluders are made: which part a 
 CONST uint k_is_culled_unit = 15u;    // … and which parts are culled
 CONST uint k_subtrees_unit = 7u;      // While a tree is asked: what is known of its subtrees
 
+CONST uint k_clusters_unit = 7u;            // Of a metric tree (surface_shadows/metric_tree.glsl): clusters of triangles, …
+CONST uint k_always_asked_unit = 12u;       // … those that have no place in it, …
+CONST uint k_cluster_triangles_unit = 14u;  // … their triangles, …
+CONST uint k_metric_tree_unit = 15u;        // … and its nodes
+
 CONST uint k_places_unit = 2u;            // While airlight is asked of listed rays: where they pass through the image.
 CONST uint k_ray_members_unit = 6u;       // While they are listed, and then interpolated: of which sample or pixel each is, …
 CONST uint k_sample_depths_unit = 7u;     // … what epipolar samples see, …
@@ -66,6 +71,9 @@ CONST uint k_occluders_storage = 1u;  // as above
 CONST uint k_tree_planes_storage = 2u;
 CONST uint k_tree_links_storage = 3u;
 CONST uint k_subtrees_storage = 4u;
+CONST uint k_metric_tree_storage = 1u;
+CONST uint k_always_asked_storage = 2u;
+CONST uint k_light_view_storage = 3u;
 CONST uint k_ray_list_storage = 1u;
 CONST uint k_ray_members_storage = 2u;
 CONST uint k_ray_groups_storage = 3u;

@@ -10,6 +10,19 @@
 
 namespace airlight::surface_shadows {
 
+LightScale light_scale(const frame::FrameInputs& inputs) {
+  const frame::LightOrigin origin = inputs.resources.origin();
+  const double reach =
+      inputs.scene.triangle_count() == 0
+          ? 0.0
+          : scene::reach_from(glm::dvec3(origin.high) + glm::dvec3(origin.low), inputs.scene.box());
+  // A normal, a product of two lengths, is squared on the way to unit length: 2^80. Products of three that
+  // are flushed to 0 are of lengths 10⁻¹⁸ of the scene's.
+  constexpr int k_exponent = 20, k_most = 100;
+  const int exponent = reach > 0.0 ? std::clamp(k_exponent - 1 - std::ilogb(reach), -k_most, k_most) : 0;
+  return {std::ldexp(1.0f, exponent), static_cast<float>(std::ldexp(1.00001 * reach, exponent))};
+}
+
 Occluders::Occluders(Culling culling)
     : culling_(culling),
       program_(gpu::Pipeline::compute(
@@ -25,67 +38,28 @@ void Occluders::load(const frame::FrameInputs& inputs) {
   count_ = inputs.scene.triangle_count();
   if (culling_ == Culling::none) return;
 
-  const scene::Components& components = inputs.components();
-  const std::vector<scene::Box> boxes = scene::boxes_of(components, inputs.geometry());
-  std::vector<std::uint32_t> number(components.count, 0);
-  boxes_.clear();
-  for (std::size_t i = 0; i < components.count; ++i) {
-    if (!components.has_two_sides[i]) continue;
-    boxes_.push_back(boxes[i]);
-    number[i] = static_cast<std::uint32_t>(boxes_.size());
-  }
-  std::vector<std::uint32_t> parts;
-  parts.reserve(count_);
-  for (const std::uint32_t triangle : inputs.scene.order())
-    parts.push_back(number[components.of_triangle[triangle]]);
-  parts_ = gpu::Buffer::from(std::span<const std::uint32_t>(parts));
-  is_culled_ = gpu::Buffer(static_cast<std::int64_t>(sizeof(std::uint32_t) * (boxes_.size() + 1)));
+  culled_parts_ = CulledParts(inputs);
+  parts_ = gpu::Buffer::from(std::span<const std::uint32_t>(culled_parts_.of_triangle()));
   part_texels_ = {limits, parts_, gpu::Format::r32ui, "the model's triangles"};
-  is_culled_texels_ = {limits, is_culled_, gpu::Format::r32ui, "the model's parts"};
-}
-
-void Occluders::cull_parts(const frame::FrameInputs& inputs) const {
-  const glm::dvec3 eye = inputs.view.camera.eye;
-  const scene::Light& light = inputs.light();
-  // More than the roundings of positions relative to the light.
-  const double margin = 1e-6 * static_cast<double>(reach_ / scale_);
-  const auto is_outside = [&](const scene::Box& box, glm::dvec3 point) {
-    return glm::any(glm::lessThan(point, glm::dvec3(box.lower) - margin)) ||
-           glm::any(glm::greaterThan(point, glm::dvec3(box.upper) + margin));
-  };
-  std::vector<std::uint32_t> is_culled = {0};
-  is_culled.reserve(boxes_.size() + 1);
-  for (const scene::Box& box : boxes_)
-    is_culled.push_back(
-        is_outside(box, eye) && (scene::is_sun(light) || is_outside(box, light.position)) ? 1 : 0);
-  is_culled_.write(is_culled.data(), is_culled_.bytes());
 }
 
 void Occluders::build(const frame::FrameInputs& inputs) {
   if (scene_ != inputs.scene.id()) load(inputs);
-  const frame::LightOrigin origin = inputs.resources.origin();
-  const double reach =
-      count_ == 0 ? 0.0
-                  : scene::reach_from(glm::dvec3(origin.high) + glm::dvec3(origin.low), inputs.scene.box());
-  // A normal, a product of two lengths, is squared on the way to unit length: 2^80. Products of three that
-  // are flushed to 0 are of lengths 10⁻¹⁸ of the scene's.
-  constexpr int k_exponent = 20, k_most = 100;
-  const int exponent = reach > 0.0 ? std::clamp(k_exponent - 1 - std::ilogb(reach), -k_most, k_most) : 0;
-  scale_ = std::ldexp(1.0f, exponent);
-  reach_ = static_cast<float>(std::ldexp(1.00001 * reach, exponent));
+  scale_ = light_scale(inputs);
   if (count_ == 0) return;
 
   if (culling_ == Culling::automatic) {
-    cull_parts(inputs);
+    culled_parts_.find(inputs, scale_.margin());
+    culled_parts_.bind();
     part_texels_.bind_sampler(shaders::k_parts_unit);
-    is_culled_texels_.bind_sampler(shaders::k_is_culled_unit);
   }
   inputs.scene.bind_samplers();
   corners_.bind_storage(shaders::k_occluders_storage);
+  const frame::LightOrigin origin = inputs.resources.origin();
   program_.set(0, origin.high);
   program_.set(1, origin.low);
   program_.set(2, count_);
-  program_.set(3, scale_);
+  program_.set(3, scale_.scale);
   program_.dispatch({count_, 1, 1});
 }
 

@@ -19,12 +19,7 @@
 #ifndef AIRLIGHT_OCCLUSION_GLSL
 #define AIRLIGHT_OCCLUSION_GLSL
 #include "frame/determinant.glsl"
-
-// Where rays of light come from: the origin, or all along `travels`.
-struct LightRays {
-  vec3 travels;  // unit direction of a sun's light
-  bool is_sun;
-};
+#include "frame/light_rays.glsl"
 
 // A triangle, corners in the order that the predicate wants.
 struct Occluder {

@@ -1,12 +1,10 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "frame/uniforms.glsl"
-#include "frame/occlusion.glsl"
+#include "surface_shadows/turned_triangle.glsl"
 
 // Makes the occluders (occluders.glsl), one an invocation.
 layout(local_size_x = 64) in;
-layout(binding = k_positions_unit) uniform samplerBuffer positions;   // vec3, world space
-layout(binding = k_triangles_unit) uniform usamplerBuffer triangles;  // uvec3, indices of positions
 layout(binding = k_parts_unit) uniform usamplerBuffer parts;          // of which part a triangle is
 layout(binding = k_is_culled_unit) uniform usamplerBuffer is_culled;  // whether those of a part that face the light are left out
 layout(std430, binding = k_occluders_storage) writeonly buffer Occluders { vec4 corners[]; };
@@ -28,21 +26,13 @@ float least_distance(vec3 a, vec3 b, vec3 c) {
 void main() {
   uint number = gl_GlobalInvocationID.x;
   if (number >= triangle_count) return;
-  uvec3 indices = texelFetch(triangles, int(number)).xyz;
-  vec3 a = scale * relative_to(origin_high, origin_low, texelFetch(positions, int(indices.x)).xyz);
-  vec3 b = scale * relative_to(origin_high, origin_low, texelFetch(positions, int(indices.y)).xyz);
-  vec3 c = scale * relative_to(origin_high, origin_low, texelFetch(positions, int(indices.z)).xyz);
-  float turn = turn_of(LightRays(-light.from_eye, light.is_near == 0.0), a, b, c);
-  bool hides_nothing = turn == 0.0;
+  TurnedTriangle triangle = turned_triangle(light_rays(), LightFrame(origin_high, origin_low, scale), number);
+  Occluder occluder = triangle.occluder;
+  bool hides_nothing = triangle.turn == 0.0;
   if (k_culls) {
-    if (turn < 0.0) hides_nothing = texelFetch(is_culled, int(texelFetch(parts, int(number)).x)).x != 0u;
+    if (triangle.turn < 0.0) hides_nothing = texelFetch(is_culled, int(texelFetch(parts, int(number)).x)).x != 0u;
   }
-  if (turn < 0.0) {
-    vec3 other = b;
-    b = c;
-    c = other;
-  }
-  corners[3u * number] = vec4(a, hides_nothing ? -1.0 : least_distance(a, b, c));
-  corners[3u * number + 1u] = vec4(b, 0.0);
-  corners[3u * number + 2u] = vec4(c, 0.0);
+  corners[3u * number] = vec4(occluder.a, hides_nothing ? -1.0 : least_distance(occluder.a, occluder.b, occluder.c));
+  corners[3u * number + 1u] = vec4(occluder.b, 0.0);
+  corners[3u * number + 2u] = vec4(occluder.c, 0.0);
 }

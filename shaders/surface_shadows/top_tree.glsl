@@ -15,6 +15,7 @@
 //  - A point in the shadow of an edge's neighbour goes there by the corners that they share: one that is, bit for bit, an end of the
 //    plane's edge fits either side.
 // GLSL only.
+#include "surface_shadows/depths.glsl"
 
 // planes[4 t + k]: normal, of unit length, towards the outside, of the last towards the light; and offset.
 // links[4 t + k + 1]: triangles + 1 to go on with, 0 for none. x: outside; y: intersected; of an edge's plane z: bits of its wedge, w: bits
@@ -48,12 +49,3 @@ float height_above(vec4 plane, vec3 point) {
 float slack_at(uint node, float slack, float distance, float scene_reach, bool is_sun) {
   return slack * (distance + ((node & 3u) == 3u || is_sun ? scene_reach : 0.0));
 }
-
-// A depth, the distance from a lamp or the place along a sun's rays, as an unsigned number of the same order.
-uint ordered(float depth) {
-  uint bits = floatBitsToUint(depth);
-  return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
-}
-
-// Of what rounding leaves of a depth, of the lengths that it is made from.
-const float k_depth_error = 2e-6;

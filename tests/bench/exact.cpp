@@ -3,20 +3,22 @@
 // `airlight_exact [--size N] [--scale S] [--offset X] [--factors] MODEL...`: built-in scenes or files. Of
 // each, ten views of N×N pixels (default 1024), from inside and outside, under lamps inside, outside, close
 // to the ground and far away and under suns, the same ones in every run. Positions are scaled by S and moved
-// by X sizes of the model, and rounded to float. Every pixel is judged (reference/surface_judge.h); beside
-// `psv` the shadow cube of 2048².
+// by X sizes of the model, and rounded to float. Every pixel is judged (reference/surface_judge.h): of `psv`,
+// of `metric-tree`, which has to answer the same, and of the shadow cube of 2048².
 //
-// `--factors` instead: nodes a pixel of the same views, as the paper has them (triangles that face the light
-// left out where that is right), and by how much they grow with one of its means taken away. All settings
-// have to give the same image, but for culling, whose pixels are judged.
+// `--factors` instead: nodes a pixel of the same views, of both trees as their papers have them (triangles
+// that face the light left out where that is right), and by how much they grow with one of their means taken
+// away; of metric-tree clusters and triangles asked, too. All settings have to give the same image, but for
+// culling, whose pixels are judged.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "counted_psv.h"
+#include "counted.h"
 #include "frame/frame.h"
 #include "frame/none.h"
 #include "frame/point_reader.h"
@@ -27,16 +29,22 @@
 #include "scene/builtin.h"
 #include "scene/import.h"
 #include "support/random.h"
+#include "surface_shadows/metric_tree.h"
+#include "surface_shadows/psv.h"
 #include "surface_shadows/shadow_map_lookup.h"
 
 namespace {
 
 using namespace airlight;
 
+using surface_shadows::MetricTree, surface_shadows::MetricTreeOptions, surface_shadows::Psv,
+    surface_shadows::PsvOptions;
+
 struct Row {
   std::size_t pixels = 0, wrong = 0, wrong_by_map = 0, undecided = 0;
-  double nodes = 0.0;
-  float most_nodes = 0.0f;
+  std::size_t other_by_clusters = 0;  ///< pixels of which metric-tree says otherwise than psv
+  double nodes = 0.0, nodes_of_clusters = 0.0;
+  float most_nodes = 0.0f, most_nodes_of_clusters = 0.0f;
 };
 
 scene::View view_number(int i, const scene::Box& box, int size, tests::Random& random) {
@@ -94,7 +102,8 @@ Row measure(gpu::Context& context, const scene::Geometry& geometry, int size) {
   Row row;
   const scene::Box box = scene::bounds(geometry);
   frame::Frame frame(context, geometry, 2048);
-  bench::CountedPsv psv(surface_shadows::PsvOptions{});
+  bench::Counted<Psv> psv(PsvOptions{});
+  bench::Counted<MetricTree> tree(MetricTreeOptions{});
   surface_shadows::ShadowMapLookup shadow_map;
   tests::Random random(2015);
   for (int i = 0; i < 10; ++i) {
@@ -102,6 +111,7 @@ Row measure(gpu::Context& context, const scene::Geometry& geometry, int size) {
     frame::PointReader reader;
     visibility_by(frame, view, reader);
     const std::vector<float> exact = visibility_by(frame, view, psv),
+                             by_clusters = visibility_by(frame, view, tree),
                              by_map = visibility_by(frame, view, shadow_map);
     quality::SharedReference reference(geometry, view, {});
     const quality::SurfaceVerdicts& verdicts = reference.verdicts(0, reader.points());
@@ -114,34 +124,33 @@ Row measure(gpu::Context& context, const scene::Geometry& geometry, int size) {
       if (!verdicts[pixel]) continue;
       row.nodes += static_cast<double>(psv.nodes[pixel]);
       row.most_nodes = std::max(row.most_nodes, psv.nodes[pixel]);
+      row.nodes_of_clusters += static_cast<double>(tree.nodes[pixel]);
+      row.most_nodes_of_clusters = std::max(row.most_nodes_of_clusters, tree.nodes[pixel]);
+      if (by_clusters[pixel] != exact[pixel]) ++row.other_by_clusters;
       if (quality::is_wrong(exact[pixel], *verdicts[pixel]))
         fmt::print(stderr, "view {}, pixel {} is {}\n", i, pixel, exact[pixel]);
     }
   }
   row.nodes /= static_cast<double>(std::max<std::size_t>(row.pixels, 1));
+  row.nodes_of_clusters /= static_cast<double>(std::max<std::size_t>(row.pixels, 1));
   return row;
 }
 
+template <class Options>
 struct Setting {
   std::string name;
-  surface_shadows::PsvOptions options;
+  Options options;
 };
 
-void print_factors(gpu::Context& context, const std::string& name, const scene::Geometry& geometry,
-                   int size) {
-  using surface_shadows::Culling, surface_shadows::Wedge, surface_shadows::InsertionOrder,
-      surface_shadows::Traversal;
-  const std::vector<Setting> settings = {
-      {"paper's", {.cull = Culling::automatic}},
-      {"cull=none", {}},
-      {"cull=none, stackless", {.traversal = Traversal::stackless}},
-      {"cull=none, file", {.order = InsertionOrder::file}},
-      {"cull=none, no wedge", {.wedge = Wedge::off, .stack = 128}},
-  };
+/// Of settings of one tree: the first is its paper's, with culling, the others are without.
+template <class Tree, class Options>
+void print_factors(gpu::Context& context, const scene::Geometry& geometry, int size, const std::string& tree,
+                   const std::vector<Setting<Options>>& settings) {
   const scene::Box box = scene::bounds(geometry);
   frame::Frame frame(context, geometry, 16);
   std::vector<double> nodes(settings.size());
   std::vector<float> most(settings.size());
+  std::vector<std::map<std::string, double>> asked(settings.size());
   std::size_t pixels = 0, wrong_by_culling = 0, changed_by_culling = 0, seeds_that_differ = 0;
   tests::Random random(2015);
   for (int i = 0; i < 10; ++i) {
@@ -151,31 +160,62 @@ void print_factors(gpu::Context& context, const std::string& name, const scene::
     const std::vector<glm::vec4>& points = reader.points().of_light.at(0);
     std::vector<std::vector<float>> answers;
     for (std::size_t k = 0; k < settings.size(); ++k) {
-      bench::CountedPsv psv(settings[k].options);
-      answers.push_back(visibility_by(frame, view, psv));
+      bench::Counted<Tree> counted(settings[k].options);
+      answers.push_back(visibility_by(frame, view, counted));
+      for (const auto& [what, count] : counted.sums) asked[k][what] += count;
       for (std::size_t pixel = 0; pixel < points.size(); ++pixel) {
         if (points[pixel].w < 0.0f) continue;
-        nodes[k] += static_cast<double>(psv.nodes[pixel]);
-        most[k] = std::max(most[k], psv.nodes[pixel]);
+        nodes[k] += static_cast<double>(counted.nodes[pixel]);
+        most[k] = std::max(most[k], counted.nodes[pixel]);
         if (k == 0) ++pixels;
       }
       if (k > 1 && answers[k] != answers[1])
         fmt::print(stderr, "view {}, {}: not the same\n", i, settings[k].name);
     }
-    surface_shadows::Psv other_seed({.seed = 2 + i});
-    if (visibility_by(frame, view, other_seed) != answers[1]) ++seeds_that_differ;
+    Options other_seed;
+    other_seed.seed = 2 + i;
+    Tree of_other_seed(other_seed);
+    if (visibility_by(frame, view, of_other_seed) != answers[1]) ++seeds_that_differ;
     quality::SharedReference reference(geometry, view, {});
     wrong_by_culling +=
         quality::surface_error(answers[0], reference.verdicts(0, reader.points())).wrong_pixels;
     for (std::size_t pixel = 0; pixel < points.size(); ++pixel)
       if (points[pixel].w >= 0.0f && answers[0][pixel] != answers[1][pixel]) ++changed_by_culling;
   }
-  fmt::print(
-      "{}: {} triangles, {} pixels; culling changes {} of them and has {} wrong; {} of ten seeds differ\n",
-      name, geometry.triangles.size(), pixels, changed_by_culling, wrong_by_culling, seeds_that_differ);
-  for (std::size_t k = 0; k < settings.size(); ++k)
-    fmt::print("  {:<24} {:>9.1f} nodes, {:>8} at most, x {:.2f}\n", settings[k].name,
+  fmt::print("  {}: {} pixels; culling changes {} of them and has {} wrong; {} of ten seeds differ\n", tree,
+             pixels, changed_by_culling, wrong_by_culling, seeds_that_differ);
+  for (std::size_t k = 0; k < settings.size(); ++k) {
+    fmt::print("    {:<24} {:>9.1f} nodes, {:>8} at most, x {:.2f}", settings[k].name,
                nodes[k] / static_cast<double>(pixels), most[k], nodes[k] / nodes[0]);
+    for (const char* what : {"surface_clusters", "surface_triangles"})
+      if (asked[k].contains(what))
+        fmt::print(", {} {:.2f}", what, asked[k].at(what) / static_cast<double>(pixels));
+    fmt::print("\n");
+  }
+  std::fflush(stdout);
+}
+
+void print_factors(gpu::Context& context, const std::string& name, const scene::Geometry& geometry,
+                   int size) {
+  using surface_shadows::Culling, surface_shadows::Wedge, surface_shadows::InsertionOrder,
+      surface_shadows::Traversal, surface_shadows::Use;
+  fmt::print("{}: {} triangles\n", name, geometry.triangles.size());
+  print_factors<Psv, PsvOptions>(context, geometry, size, "psv",
+                                 {{"paper's", {.cull = Culling::automatic}},
+                                  {"cull=none", {}},
+                                  {"cull=none, stackless", {.traversal = Traversal::stackless}},
+                                  {"cull=none, file", {.order = InsertionOrder::file}},
+                                  {"cull=none, no wedge", {.wedge = Wedge::off, .stack = 128}}});
+  print_factors<MetricTree, MetricTreeOptions>(context, geometry, size, "metric-tree",
+                                               {{"paper's", {.cull = Culling::automatic}},
+                                                {"cull=none", {}},
+                                                {"cull=none, spheres", {.capsules = Use::off}},
+                                                {"cull=none, no slabs", {.slabs = Use::off}},
+                                                {"cull=none, no distances", {.distance_cull = Use::off}},
+                                                {"cull=none, no intervals", {.interval_cull = Use::off}},
+                                                {"cull=none, all of space", {.light_view = Use::off}},
+                                                {"cull=none, cluster=8", {.cluster = 8}},
+                                                {"cull=none, cluster=32", {.cluster = 32}}});
 }
 
 scene::Geometry load(const std::string& name) {
@@ -202,8 +242,9 @@ void run(const std::vector<std::string>& words) {
   }
   gpu::Context context;
   if (!prints_factors)
-    fmt::print("{:<32} {:>10} {:>10} {:>8} {:>10} {:>10} {:>8} {:>8}\n", "model", "triangles", "pixels",
-               "wrong", "undecided", "map wrong", "nodes", "most");
+    fmt::print("{:<32} {:>10} {:>10} {:>8} {:>8} {:>10} {:>10} {:>8} {:>8} {:>10} {:>8}\n", "model",
+               "triangles", "pixels", "wrong", "differ", "undecided", "map wrong", "psv", "most",
+               "metric tree", "most");
   for (const std::string& model : models) {
     scene::Geometry geometry = load(model);
     const scene::Box box = scene::bounds(geometry);
@@ -218,8 +259,10 @@ void run(const std::vector<std::string>& words) {
     }
     const Row row = measure(context, geometry, size);
     if (!prints_factors)
-      fmt::print("{:<32} {:>10} {:>10} {:>8} {:>10} {:>10} {:>8.1f} {:>8}\n", name, geometry.triangles.size(),
-                 row.pixels, row.wrong, row.undecided, row.wrong_by_map, row.nodes, row.most_nodes);
+      fmt::print("{:<32} {:>10} {:>10} {:>8} {:>8} {:>10} {:>10} {:>8.1f} {:>8} {:>10.1f} {:>8}\n", name,
+                 geometry.triangles.size(), row.pixels, row.wrong, row.other_by_clusters, row.undecided,
+                 row.wrong_by_map, row.nodes, row.most_nodes, row.nodes_of_clusters,
+                 row.most_nodes_of_clusters);
     std::fflush(stdout);
   }
 }

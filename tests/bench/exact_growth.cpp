@@ -1,8 +1,9 @@
 // How exact surface shadows grow with the number of triangles, and the cases that are hard on a tree.
 //
-// `airlight_exact_growth [--size N] CASE COUNT...`: of each count of triangles, on N×N pixels (default 512),
-// the times of the tree's build and of its query, nodes a pixel, the memory; beside them Embree's build and
-// the same points asked of it, eight rays a packet on all cores, and the shadow cube of 2048². Cases:
+// `airlight_exact_growth [--size N] [--cluster N] CASE COUNT...`: of each count of triangles, on N×N pixels
+// (default 512), a line a method: the times of its build and of its query, nodes a pixel, the most, triangles
+// asked, the memory. `psv` and `metric-tree` (clusters of `--cluster` triangles, and how long these took);
+// Embree, eight rays a packet on all cores; the shadow cube of 2048². Cases:
 // - `spheres`: the built-in scene of a hundred spheres about a lamp;
 // - `strip`, `strip-in-order`: triangles side by side around the light, each of which has all others outside
 //   of two of its planes, inserted in random order and in theirs (Gerhards et al. 2015, Fig. 4 a);
@@ -21,7 +22,7 @@
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
 
-#include "counted_psv.h"
+#include "counted.h"
 #include "frame/frame.h"
 #include "frame/none.h"
 #include "frame/point_reader.h"
@@ -32,6 +33,8 @@
 #include "scene/builtin.h"
 #include "support/scenes.h"
 #include "surface_shadows/brute.h"
+#include "surface_shadows/metric_tree.h"
+#include "surface_shadows/psv.h"
 #include "surface_shadows/shadow_map_lookup.h"
 
 namespace {
@@ -205,13 +208,15 @@ std::map<std::string, double> stages_of(gpu::Context& context, frame::Frame& fra
 }
 
 void run(const std::vector<std::string>& words) {
-  int size = 512;
+  int size = 512, cluster = surface_shadows::MetricTreeOptions{}.cluster;
   bool checks = false;
   std::string name;
   std::vector<int> counts;
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (words[i] == "--size")
       size = std::stoi(words.at(++i));
+    else if (words[i] == "--cluster")
+      cluster = std::stoi(words.at(++i));
     else if (words[i] == "--check")
       checks = true;
     else if (name.empty())
@@ -220,9 +225,8 @@ void run(const std::vector<std::string>& words) {
       counts.push_back(std::stoi(words[i]));
   }
   gpu::Context context;
-  fmt::print("{:<16} {:>10} {:>9} {:>9} {:>9} {:>7} {:>9} {:>12} {:>12} {:>10} {:>10}\n", "case", "triangles",
-             "pixels", "build ms", "query ms", "nodes", "most", "bytes", "Embree build", "and query",
-             "map ms");
+  fmt::print("{:<16} {:>10} {:<12} {:>9} {:>9} {:>7} {:>7} {:>9} {:>12}\n", "case", "triangles", "method",
+             "build ms", "query ms", "nodes", "most", "asked", "bytes");
   for (const int count : counts) {
     Case made = make(name, count);
     made.view.size = {size, size};
@@ -231,38 +235,56 @@ void run(const std::vector<std::string>& words) {
     gpu::StageTimer off(nullptr);
     draw(frame, made.view, reader, off);
     const std::vector<glm::vec4> points = reader.points().of_light.at(0);
+    const auto pixels = static_cast<double>(
+        std::count_if(points.begin(), points.end(), [](const glm::vec4& point) { return point.w >= 0.0f; }));
+    const auto print = [&](const std::string& method, double build, double query, const std::string& rest) {
+      fmt::print("{:<16} {:>10} {:<12} {:>9.2f} {:>9.2f} {}\n", name, made.geometry.triangles.size(), method,
+                 build, query, rest);
+      std::fflush(stdout);
+    };
 
-    bench::CountedPsv psv(made.options);
-    psv.counts = false;
-    const auto by_psv = stages_of(context, frame, made.view, psv);
-    const std::vector<float> answer = frame.read().visibility.at(0);
-    psv.counts = true;
-    draw(frame, made.view, psv, off);
-    double nodes = 0.0, pixels = 0.0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      nodes += static_cast<double>(psv.nodes[i]);
-      if (points[i].w >= 0.0f) pixels += 1.0;
-    }
+    std::vector<float> expected;
     if (checks) {
       surface_shadows::Brute brute({});
       draw(frame, made.view, brute, off);
-      if (answer != frame.read().visibility.at(0)) throw std::runtime_error("brute answers otherwise");
+      expected = frame.read().visibility.at(0);
     }
+    const auto measure_tree = [&](const std::string& method, auto& tree) {
+      tree.counts = false;
+      const auto stages = stages_of(context, frame, made.view, tree);
+      const std::vector<float> answer = frame.read().visibility.at(0);
+      if (expected.empty()) expected = answer;
+      if (answer != expected) throw std::runtime_error(method + " answers otherwise");
+      tree.counts = true;
+      draw(frame, made.view, tree, off);
+      const auto a_pixel = [&](const char* what) {
+        return tree.sums.contains(what) ? tree.sums.at(what) / std::max(pixels, 1.0) : 0.0;
+      };
+      std::int64_t bytes = 0;
+      for (const auto& [what, of_it] : tree.bytes()) bytes += of_it;
+      print(method, stages.at("surface_build"), stages.at("surface_query"),
+            fmt::format("{:>7.1f} {:>7} {:>9.2f} {:>12}", a_pixel("surface_nodes"),
+                        *std::max_element(tree.nodes.begin(), tree.nodes.end()), a_pixel("surface_triangles"),
+                        bytes));
+    };
+    bench::Counted<surface_shadows::Psv> psv(made.options);
+    measure_tree("psv", psv);
+    bench::Counted<surface_shadows::MetricTree> tree(surface_shadows::MetricTreeOptions{.cluster = cluster});
+    gpu::StageTimer once(&context);
+    draw(frame, made.view, tree, once);
+    measure_tree("metric-tree", tree);
+    print("  clusters", once.milliseconds().at("triangle_clusters"), 0.0,
+          fmt::format("{} of {:.2f} triangles, {:.1f} % capsules", tree.cluster_count(),
+                      static_cast<double>(made.geometry.triangles.size()) / tree.cluster_count(),
+                      100.0 * tree.capsule_share()));
+
     surface_shadows::ShadowMapLookup shadow_map;
     const auto by_map = stages_of(context, frame, made.view, shadow_map);
+    print("shadow-map", by_map.at("shadow_map"), by_map.at("surface_query"), "");
 
     const EmbreePackets embree(made.geometry);
     const glm::vec3 light(made.view.lights[0].position);
-    const double embree_ms = median_ms([&] { embree.ask(points, light); });
-
-    std::int64_t bytes = 0;
-    for (const auto& [what, of_it] : psv.bytes()) bytes += of_it;
-    fmt::print("{:<16} {:>10} {:>9} {:>9.2f} {:>9.2f} {:>7.1f} {:>9} {:>12} {:>12.1f} {:>10.2f} {:>10.1f}\n",
-               name, made.geometry.triangles.size(), pixels, by_psv.at("surface_build"),
-               by_psv.at("surface_query"), nodes / std::max(pixels, 1.0),
-               *std::max_element(psv.nodes.begin(), psv.nodes.end()), bytes, embree.build_ms, embree_ms,
-               by_map.at("shadow_map") + by_map.at("surface_query"));
-    std::fflush(stdout);
+    print("Embree", embree.build_ms, median_ms([&] { embree.ask(points, light); }), "");
   }
 }
 

@@ -364,7 +364,7 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{{"--fog-top", "nan"}, "--fog-top"}, Misuse{{"--fog-top", "1e19"}, "--fog-top"},
         Misuse{{"--phase", "mie"}, "unknown"}, Misuse{{"--rayleigh-weight", "0.5"}, "hoffman-preetham"},
         Misuse{{"--volume", "moments"}, "march, froxel, reference"},
-        Misuse{{"--surface", "metric-tree"}, "shadow-map, vsv, psv"},
+        Misuse{{"--surface", "silhouettes"}, "shadow-map, vsv, psv, metric-tree"},
         Misuse{{"--volume", "vsv,none"}, "one method"}, Misuse{{"--volume", ""}, "--volume"},
         Misuse{{"--volume", "vsv:integral=sum"}, "riemann"},
         Misuse{{"--volume", "vsv:shade=1"}, "integral"}));
@@ -997,9 +997,9 @@ TEST_F(Compare, ResultsFollowTheirSchema) {
        "none,vsv,vsv:integral=riemann:populate=conservative,vsv:integral=factored:scan=fused:phi-cells=equal,"
        "vsv:populate=screen-space:scan=multi-pass,reference,reference-march:steps=64,"
        "reference-march:steps=64:rays=single",
-       "--surface", "none,shadow-map,vsv,psv,brute,reference", "--debug"});
+       "--surface", "none,shadow-map,vsv,psv,metric-tree,brute,reference", "--debug"});
   EXPECT_THAT(tests::schema_violations(results, schema), IsEmpty());
-  EXPECT_EQ(results["runs"].size(), 48u);
+  EXPECT_EQ(results["runs"].size(), 56u);
 
   // Every field of a view is documented.
   const Json& view = schema.at("properties").at("view").at("properties");

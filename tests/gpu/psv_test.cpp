@@ -1,41 +1,34 @@
 #include "surface_shadows/psv.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
-#include <ostream>
 #include <random>
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "frame/frame.h"
-#include "frame/none.h"
 #include "frame/point_reader.h"
 #include "quality/metrics.h"
 #include "quality/traced.h"
 #include "support/frame_probe.h"
-#include "support/gpu_context.h"
 #include "support/random.h"
 #include "support/scenes.h"
+#include "support/shadow_cases.h"
 #include "support/shared.h"
-#include "surface_shadows/brute.h"
 
 /// Exact surface shadows: trees answer what asking every triangle does, bit for bit.
 namespace airlight::surface_shadows {
 namespace {
 
+using tests::ball;
+using tests::box_and_sheet;
 using tests::builtin;
-using tests::gpu_context;
-
-std::vector<float> visibility(const scene::Geometry& geometry, const scene::View& view,
-                              frame::SurfaceShadow& method) {
-  frame::Frame frame(gpu_context(), geometry, 16);
-  frame::NoAirlight no_airlight;
-  gpu::StageTimer timer(nullptr);
-  frame.render(view, method, no_airlight, timer);
-  return frame.read().visibility.at(0);
-}
+using tests::by_brute;
+using tests::count_lit;
+using tests::shadow_cases;
+using tests::ShadowCase;
+using tests::view_of_soup;
+using tests::visibility;
 
 std::vector<float> by_psv(const scene::Geometry& geometry, const scene::View& view,
                           const PsvOptions& options) {
@@ -43,78 +36,9 @@ std::vector<float> by_psv(const scene::Geometry& geometry, const scene::View& vi
   return visibility(geometry, view, psv);
 }
 
-std::vector<float> by_brute(const scene::Geometry& geometry, const scene::View& view,
-                            Culling cull = Culling::none) {
-  Brute brute({.cull = cull});
-  return visibility(geometry, view, brute);
-}
-
-std::size_t count_lit(const std::vector<float>& visibility) {
-  return static_cast<std::size_t>(std::count(visibility.begin(), visibility.end(), 1.0f));
-}
-
-/// Triangles of all sizes in a box around the origin, some of them twice, on a floor.
-scene::Geometry soup(int count) {
-  tests::Random random(5);
-  scene::Geometry geometry;
-  tests::add_quad(geometry, {-6, -2, -6}, {12, 0, 0}, {0, 0, 12});
-  for (int i = 0; i < count; ++i) {
-    const glm::dvec3 corner = {random.uniform(-2, 2), random.uniform(-2, 1.5), random.uniform(-2, 2)};
-    const double size = random.logarithmic(0.01, 1.5);
-    const glm::vec3 a(corner), b(corner + size * random.direction()), c(corner + size * random.direction());
-    tests::add_triangle(geometry, a, b, c);
-    if (i % 10 == 0) tests::add_triangle(geometry, c, b, a);
-  }
-  return geometry;
-}
-
-struct Case {
-  std::string name;
-  scene::Geometry geometry;
-  scene::View view;
-};
-
-scene::View view_of_soup(const scene::Light& light) {
-  scene::View view;
-  view.camera.eye = {3.5, 2.5, 5};
-  view.camera.target = {0, -0.5, 0};
-  view.lights = {light};
-  view.medium.sigma_s = glm::vec3(1e-9f);
-  view.size = {64, 48};
-  return view;
-}
-
-const std::vector<Case>& cases() {
-  static const std::vector<Case> all = [] {
-    std::vector<Case> cases;
-    for (const char* name : {"cornell", "sphere"})
-      cases.push_back({name, builtin(name).geometry, tests::view_of(builtin(name), {64, 48})});
-    const scene::Geometry triangles = soup(1500);
-    const auto lamp = [](glm::dvec3 position) { return scene::point_light("", position, glm::vec3(1e12f)); };
-    // Layers, each within the beams of those below it, and under each what only it hides.
-    scene::Geometry layers;
-    for (int i = 0; i < 12; ++i) {
-      const float y = -2.0f + 0.3f * static_cast<float>(i), half = 2.0f - 0.15f * static_cast<float>(i);
-      tests::add_triangle(layers, {1 - half, y, 1 - half}, {1 + half, y, 1 - half}, {1, y, 1 + half});
-      for (const float x : {0.8f, 1.0f, 1.2f})
-        tests::add_triangle(layers, {x, y - 0.1f, 0.9f}, {x + 0.1f, y - 0.1f, 0.9f}, {x, y - 0.1f, 1});
-    }
-    cases.push_back({"layers", layers, view_of_soup(lamp({1, 4, 1}))});
-    cases.push_back({"soup above", triangles, view_of_soup(lamp({1, 4, 1}))});
-    cases.push_back({"soup inside", triangles, view_of_soup(lamp({0.1, -0.3, 0.2}))});
-    cases.push_back({"soup grazing", triangles, view_of_soup(lamp({5, -1.99, 1}))});
-    cases.push_back({"soup far", triangles, view_of_soup(lamp({300, 500, 100}))});
-    cases.push_back({"soup sun", triangles, view_of_soup(scene::sun("", {0.3, 1, 0.2}, glm::vec3(1.0f)))});
-    cases.push_back(
-        {"soup low sun", triangles, view_of_soup(scene::sun("", {1, 0.01, 0.3}, glm::vec3(1.0f)))});
-    return cases;
-  }();
-  return all;
-}
-
 class Psvs : public testing::TestWithParam<std::size_t> {
  protected:
-  const Case& given() const { return cases()[GetParam()]; }
+  const ShadowCase& given() const { return shadow_cases()[GetParam()]; }
 };
 
 TEST_P(Psvs, AnswerWhatAskingEveryTriangleDoes) {
@@ -183,41 +107,6 @@ TEST_P(Psvs, DoNotDependOnScale) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, Psvs, testing::Range(std::size_t{0}, std::size_t{9}));
-
-/// A closed mesh around the light: an icosahedron whose faces are cut in four, twice, so that most edges and
-/// vertices are inside of a face. Its corners are on no axis.
-scene::Geometry ball() {
-  const float g = 1.618034f;
-  std::vector<glm::vec3> corners = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0},
-                                    {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g},
-                                    {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
-  std::vector<glm::uvec3> faces = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
-                                   {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-                                   {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
-                                   {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
-  for (glm::vec3& corner : corners) corner = glm::normalize(corner);
-  for (int cut = 0; cut < 2; ++cut) {
-    std::vector<glm::uvec3> cut_faces;
-    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-      const glm::vec3 at = glm::normalize(corners[std::min(a, b)] + corners[std::max(a, b)]);
-      const auto found = std::find(corners.begin(), corners.end(), at);
-      if (found != corners.end()) return static_cast<std::uint32_t>(found - corners.begin());
-      corners.push_back(at);
-      return static_cast<std::uint32_t>(corners.size() - 1);
-    };
-    for (const glm::uvec3& f : faces) {
-      const std::uint32_t ab = middle(f.x, f.y), bc = middle(f.y, f.z), ca = middle(f.z, f.x);
-      cut_faces.insert(cut_faces.end(), {{f.x, ab, ca}, {ab, f.y, bc}, {ca, bc, f.z}, {ab, bc, ca}});
-    }
-    faces = cut_faces;
-  }
-  scene::Geometry geometry;
-  geometry.materials.emplace_back();
-  geometry.positions = corners;
-  geometry.triangles = faces;
-  geometry.material_of_triangle.assign(faces.size(), 0);
-  return geometry;
-}
 
 // What the eye sees, between the corners and edges of a closed mesh around the light, is a wall beyond. Its
 // corners are those of the mesh, projected, so that rasterised points lie along the edges' planes.
@@ -303,20 +192,11 @@ double nodes_a_pixel(const scene::Geometry& geometry, const scene::View& view, c
 TEST(Psv, VisitsFewerNodesByItsWedges) {
   // The order in which invocations insert triangles is chance, and so is a tree: here wedges spare nearly a
   // half of the nodes, and no tree in which they spare less than a third was seen.
-  const Case& given =
-      *std::find_if(cases().begin(), cases().end(), [](const Case& each) { return each.name == "soup sun"; });
+  const ShadowCase& given = *std::find_if(shadow_cases().begin(), shadow_cases().end(),
+                                          [](const ShadowCase& each) { return each.name == "soup sun"; });
   const double usual = nodes_a_pixel(given.geometry, given.view, {});
   EXPECT_GT(usual, 4.0);
   EXPECT_LT(1.5 * usual, nodes_a_pixel(given.geometry, given.view, {.wedge = Wedge::off}));
-}
-
-/// A floor, above it a box and beside that an open sheet that faces up.
-scene::Geometry box_and_sheet() {
-  scene::Geometry geometry;
-  tests::add_quad(geometry, {-6, -2, -6}, {0, 0, 12}, {12, 0, 0});
-  tests::add_box(geometry, {-1.5f, -1, -1}, {0, 0, 1});
-  tests::add_quad(geometry, {0.5f, -1, -1}, {0, 0, 2}, {1.5f, 0, 0});
-  return geometry;
 }
 
 TEST(Culling, LeavesOutHalfOfWhatIsClosedAndNothingElse) {

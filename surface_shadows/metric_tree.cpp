@@ -1,0 +1,272 @@
+#include "surface_shadows/metric_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "frame/blocks.h"
+#include "frame/clusters.h"
+#include "surface_shadows/triangle_clusters.h"
+
+#include "spirv/surface_shadows/metric_tree_cones_comp.h"
+#include "spirv/surface_shadows/metric_tree_insert_comp.h"
+#include "spirv/surface_shadows/metric_tree_query_frag.h"
+
+namespace airlight::shaders {
+#include "surface_shadows/apparent.glsl"
+}  // namespace airlight::shaders
+
+namespace airlight::surface_shadows {
+namespace {
+
+constexpr std::int64_t k_node_bytes = 64;   ///< of a MetricNode of shaders/surface_shadows/metric_tree.glsl
+constexpr std::int64_t k_half_spaces = 32;  ///< more than any light's view has
+constexpr const char* k_remedy = "let clusters have more triangles (metric-tree:cluster=N)";
+
+std::uint32_t flag(Use use) {
+  return use == Use::on ? 1u : 0u;
+}
+
+}  // namespace
+
+frame::ScreenPass MetricTree::query_pass(Counted counted) const {
+  return frame::ScreenPass(
+      k_metric_tree_query_frag,
+      std::array{gpu::Constant(0, static_cast<std::uint32_t>(counted)),
+                 gpu::Constant(1, flag(options_.distance_cull)),
+                 gpu::Constant(2, flag(options_.interval_cull)), gpu::Constant(3, flag(options_.slabs)),
+                 gpu::Constant(4, static_cast<std::uint32_t>(options_.stack))});
+}
+
+MetricTree::MetricTree(const MetricTreeOptions& options)
+    : options_(options),
+      cones_program_(gpu::Pipeline::compute(
+          k_metric_tree_cones_comp, std::array{gpu::Constant(0, options.cull == Culling::automatic ? 1u : 0u),
+                                               gpu::Constant(1, flag(options.normal_cones))})),
+      insert_program_(gpu::Pipeline::compute(k_metric_tree_insert_comp)),
+      query_(query_pass(Counted::none)) {}
+
+void MetricTree::load(const frame::FrameInputs& inputs) {
+  if (options_.cull == Culling::automatic) culled_parts_ = CulledParts(inputs);
+  TriangleClusters made;
+  inputs.timer.time("triangle_clusters", [&] {
+    made = make_triangle_clusters(inputs.geometry(), inputs.scene.order(), culled_parts_.of_triangle(),
+                                  {.most_triangles = static_cast<std::uint32_t>(options_.cluster),
+                                   .has_capsules = options_.capsules == Use::on});
+  });
+  // Their numbers are the order in which they are inserted.
+  std::shuffle(made.clusters.begin(), made.clusters.end(),
+               std::mt19937(static_cast<std::uint32_t>(options_.seed)));
+  cluster_count_ = static_cast<std::uint32_t>(made.clusters.size());
+  const auto capsules =
+      std::count_if(made.clusters.begin(), made.clusters.end(),
+                    [](const TriangleCluster& cluster) { return !cluster.bounds.is_sphere(); });
+  capsule_share_ = static_cast<double>(capsules) / std::max(1.0, static_cast<double>(cluster_count_));
+
+  const gpu::Limits& limits = inputs.context.limits();
+  const std::int64_t node_bytes = k_node_bytes * (std::int64_t{cluster_count_} + 1);
+  gpu::require_storage_block(limits, node_bytes, "the tree of the model's clusters", k_remedy);
+  clusters_ = gpu::Buffer::from(std::span<const TriangleCluster>(made.clusters));
+  triangles_ = gpu::Buffer::from(std::span<const std::uint32_t>(made.triangles));
+  nodes_ = gpu::Buffer(node_bytes);
+  always_asked_ = gpu::Buffer(std::int64_t{sizeof(std::uint32_t)} * cluster_count_);
+  light_view_ = gpu::Buffer(k_half_spaces * std::int64_t{sizeof(glm::vec4)});
+  cluster_texels_ = {limits, clusters_, gpu::Format::rgba32ui, "the model's clusters"};
+  triangle_texels_ = {limits, triangles_, gpu::Format::r32ui, "the model's triangles"};
+  node_texels_ = {limits, nodes_, gpu::Format::rgba32ui, "the tree of the model's clusters"};
+  always_asked_texels_ = {limits, always_asked_, gpu::Format::r32ui, "the model's clusters"};
+  scene_ = inputs.scene.id();
+}
+
+MetricTree::Distances MetricTree::distances(const frame::FrameInputs& inputs, const LightScale& scale) {
+  const scene::Box& box = inputs.scene.box();
+  const glm::dvec3 middle = 0.5 * (glm::dvec3(box.lower) + glm::dvec3(box.upper));
+  const double radius = glm::distance(middle, glm::dvec3(box.upper));
+  Distances result;
+  if (scene::is_sun(inputs.light())) {
+    result.error = shaders::k_foot_error * scale.reach;
+    result.root_distance = scale.scale * static_cast<float>(radius);
+  } else {
+    const double distance = glm::distance(middle, inputs.light().position);
+    result.error = shaders::k_angle_error;
+    result.root_distance =
+        static_cast<float>(distance > radius ? std::asin(radius / distance) : std::numbers::pi);
+  }
+  result.slack = shaders::k_decisions * result.error;
+  return result;
+}
+
+std::uint32_t MetricTree::write_light_view(const frame::FrameInputs& inputs) const {
+  if (options_.light_view == Use::off) return 0;
+  const scene::Light& light = inputs.light();
+  const scene::CameraFrame camera = scene::camera_frame(inputs.view.camera, inputs.view.size);
+  std::vector<glm::dvec3> seen;
+  for (const glm::dvec3& ray : scene::corner_rays(camera)) seen.push_back(glm::normalize(ray));
+  // Points that a frame shades lie in its triangles, and may lie 2⁻¹⁶ of a triangle's size out of view.
+  const double margin = 1e-4 * static_cast<double>(scale_.reach);
+  constexpr double k_rounding = 1e-12;
+  std::vector<glm::vec4> half_spaces;
+  const auto add = [&](glm::dvec3 inward, double offset) {
+    half_spaces.emplace_back(glm::vec3(inward), static_cast<float>(offset + margin));
+  };
+
+  // From a lamp what lies between it and the view is seen along sums of the way to the eye and view rays;
+  // from a point of the view a sun is along sums of view rays and the way to it.
+  const bool is_sun = scene::is_sun(light);
+  const glm::dvec3 to_eye = camera.eye - light.position;
+  std::vector<glm::dvec3> between = seen;
+  between.push_back(is_sun ? light.towards : glm::normalize(to_eye));
+  for (const glm::dvec3& side : frame::sides_of_cone(between, k_rounding)) add(side, 0.0);
+  // A side of the view that has the lamp inside, too, has all that lies between.
+  if (!is_sun) {
+    for (const glm::dvec3& side : frame::sides_of_cone(seen, k_rounding)) {
+      const double offset = -static_cast<double>(scale_.scale) * glm::dot(side, to_eye);
+      if (offset >= 0.0) add(side, offset);
+    }
+  }
+  if (half_spaces.size() > static_cast<std::size_t>(k_half_spaces)) half_spaces.resize(k_half_spaces);
+  light_view_.write(half_spaces.data(), static_cast<std::int64_t>(half_spaces.size() * sizeof(glm::vec4)));
+  return static_cast<std::uint32_t>(half_spaces.size());
+}
+
+void MetricTree::build(const frame::FrameInputs& inputs) {
+  scale_ = light_scale(inputs);
+  // Before the first node stands what leads to it.
+  constexpr std::array<std::uint32_t, k_node_bytes / sizeof(std::uint32_t)> k_no_tree{};
+  nodes_.write(k_no_tree.data(), k_node_bytes);
+  if (cluster_count_ == 0) return;
+  if (options_.cull == Culling::automatic) {
+    culled_parts_.find(inputs, scale_.margin());
+    culled_parts_.bind();
+  }
+  const frame::LightOrigin origin = inputs.resources.origin();
+  const Distances of_light = distances(inputs, scale_);
+  cluster_texels_.bind_sampler(shaders::k_clusters_unit);
+  nodes_.bind_storage(shaders::k_metric_tree_storage);
+  always_asked_.bind_storage(shaders::k_always_asked_storage);
+  light_view_.bind_storage(shaders::k_light_view_storage);
+  cones_program_.set(0, origin.high);
+  cones_program_.set(1, origin.low);
+  cones_program_.set(2, scale_.scale);
+  cones_program_.set(3, cluster_count_);
+  cones_program_.set(4, write_light_view(inputs));
+  cones_program_.dispatch({cluster_count_, 1, 1});
+
+  insert_program_.set(0, cluster_count_);
+  insert_program_.set(1, of_light.error);
+  insert_program_.set(2, of_light.root_distance);
+  insert_program_.set(3, of_light.slack);
+  insert_program_.dispatch({cluster_count_, 1, 1});
+}
+
+void MetricTree::run(const frame::ScreenPass& pass, const frame::FrameInputs& inputs,
+                     const gpu::Texture& image) const {
+  inputs.scene.bind_samplers();
+  inputs.triangle_planes().bind_sampler(shaders::k_triangle_planes_unit);
+  inputs.surface_points().bind_sampler(shaders::k_surface_unit);
+  inputs.triangles.bind_sampler(shaders::k_triangle_unit);
+  cluster_texels_.bind_sampler(shaders::k_clusters_unit);
+  triangle_texels_.bind_sampler(shaders::k_cluster_triangles_unit);
+  always_asked_texels_.bind_sampler(shaders::k_always_asked_unit);
+  node_texels_.bind_sampler(shaders::k_metric_tree_unit);
+  const frame::LightOrigin origin = inputs.resources.origin();
+  const Distances of_light = distances(inputs, scale_);
+  pass.pipeline().set(0, origin.high);
+  pass.pipeline().set(1, origin.low);
+  pass.pipeline().set(2, scale_.scale);
+  pass.pipeline().set(3, of_light.error);
+  pass.pipeline().set(4, of_light.slack);
+  pass.pipeline().set(5, of_light.root_distance);
+  // Without these the shader has no use for it, and no place.
+  if (options_.slabs == Use::on || options_.distance_cull == Use::on) pass.pipeline().set(6, scale_.reach);
+  pass.run({image});
+}
+
+void MetricTree::query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) {
+  // Stages of their own.
+  inputs.surface_points();
+  inputs.triangle_planes();
+  if (scene_ != inputs.scene.id()) load(inputs);
+  inputs.timer.time("surface_build", [&] { build(inputs); });
+  inputs.timer.time("surface_query", [&] { run(query_, inputs, visibility); });
+}
+
+void MetricTree::count_nodes(const frame::FrameInputs& inputs, const gpu::Texture& counts) {
+  run(query_pass(Counted::nodes), inputs, counts);
+}
+
+std::uint32_t MetricTree::always_asked() const {
+  constexpr std::int64_t k_word = 11;  // MetricNode::place of node 0
+  return nodes_.read<std::uint32_t>(k_word, 1).at(0);
+}
+
+std::map<std::string, double> MetricTree::counters(const frame::FrameInputs& inputs) {
+  const gpu::Texture of_pixels(gpu::Format::r32f, inputs.view.size);
+  const auto total = [&](Counted counted) {
+    run(query_pass(counted), inputs, of_pixels);
+    double sum = 0.0;
+    for (const float of_pixel : of_pixels.read<float>()) sum += static_cast<double>(of_pixel);
+    return sum;
+  };
+  return {{"surface_nodes", total(Counted::nodes)},
+          {"surface_clusters", total(Counted::clusters)},
+          {"surface_triangles", total(Counted::triangles)}};
+}
+
+std::map<std::string, std::int64_t> MetricTree::bytes() const {
+  return {{"clusters", clusters_.bytes() + triangles_.bytes()},
+          {"tree", nodes_.bytes() + always_asked_.bytes() + light_view_.bytes() + culled_parts_.bytes()}};
+}
+
+frame::SurfaceMethod metric_tree_method() {
+  using Options = MetricTreeOptions;
+  const auto use_option = [](std::string_view name, std::string_view meaning, std::string_view cost,
+                             Use Options::*field) {
+    return frame::word_option<Options, Use>(
+        {.name = name, .meaning = meaning, .quality = "none", .cost = cost, .sweep = {"on", "off"}},
+        {{"on"}, {"off"}}, field);
+  };
+  return frame::describe<frame::SurfaceShadow, Options>(
+      "metric-tree", "clusters of triangles in a ternary metric tree of what the light sees of them, exact",
+      {.is_exact = true},
+      {frame::count_option<Options>({.name = "cluster",
+                                     .meaning = "triangles of a cluster at most",
+                                     .quality = "none",
+                                     .cost = "more triangles asked for a smaller tree",
+                                     .sweep = {"8", "16", "32"}},
+                                    {.least = 1, .most = static_cast<int>(k_part_unit) - 1},
+                                    &Options::cluster),
+       use_option("capsules", "whether long clusters are bounded by capsules, not by spheres",
+                  "off visits more nodes where triangles are long", &Options::capsules),
+       use_option("slabs", "whether clusters are left out whose slabs the way to the light misses",
+                  "off asks more triangles", &Options::slabs),
+       use_option("normal-cones",
+                  "whether clusters of which all triangles are culled are left out of the tree",
+                  "off has a larger tree with cull=auto", &Options::normal_cones),
+       use_option("distance-cull", "whether subtrees are left out that lie beyond the point",
+                  "off visits more nodes", &Options::distance_cull),
+       use_option("interval-cull",
+                  "whether what overlaps a node's limit is left out where the point's distance is another",
+                  "off visits more nodes", &Options::interval_cull),
+       use_option("light-view", "whether clusters are left out of the tree that hide nothing in view",
+                  "off has a larger tree", &Options::light_view),
+       culling_option(&Options::cull),
+       frame::count_option<Options>({.name = "seed",
+                                     .meaning = "of the random order",
+                                     .quality = "none",
+                                     .cost = "a few percent, by chance",
+                                     .sweep = {"1", "2", "3"}},
+                                    {.least = 0}, &Options::seed),
+       frame::count_option<Options>(
+           {.name = "stack",
+            .meaning = "nodes that the stack holds",
+            .quality = "none",
+            .cost = "registers, or the way without a stack for pixels that need more",
+            .sweep = {"24", "32", "64"}},
+           {.least = 1, .most = 128}, &Options::stack)},
+      [](const gpu::Context&, const Options& options) { return std::make_unique<MetricTree>(options); });
+}
+
+}  // namespace airlight::surface_shadows

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "frame/method.h"
+#include "frame/screen_pass.h"
+#include "surface_shadows/culled_parts.h"
+#include "surface_shadows/occluders.h"
+
+namespace airlight::surface_shadows {
+
+enum class Use { on, off };
+
+struct MetricTreeOptions {
+  int cluster = 16;             ///< triangles of one at most
+  Use capsules = Use::on;       ///< to bound clusters that are long; else spheres alone
+  Use slabs = Use::on;          ///< to leave out clusters that the way to the light does not pass through
+  Use normal_cones = Use::on;   ///< to leave out clusters of culled triangles alone
+  Use distance_cull = Use::on;  ///< of subtrees that lie farther from the light than the point
+  Use interval_cull = Use::on;  ///< of overlap subtrees at other distances from their pivot
+  Use light_view = Use::on;     ///< to leave out clusters that hide nothing of what the eye may see
+  Culling cull = Culling::none;
+  int seed = 1;    ///< of the random order
+  int stack = 32;  ///< nodes that a pixel's stack holds
+};
+
+/// `metric-tree`: clusters of triangles, made once a scene, in a ternary tree by their distances from each
+/// other as the light sees them, which is made anew each frame on the GPU and asked once a pixel. Exact:
+/// whatever its other options, it answers what `brute` does with the same culling.
+/// Based on: see shaders/surface_shadows/metric_tree.glsl and triangle_clusters.h.
+class MetricTree : public frame::SurfaceShadow {
+ public:
+  explicit MetricTree(const MetricTreeOptions& options);
+  void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override;
+  std::map<std::string, std::int64_t> bytes() const override;
+  /// "surface_nodes" of the tree that pixels visit, "surface_clusters" and "surface_triangles" that they ask.
+  std::map<std::string, double> counters(const frame::FrameInputs& inputs) override;
+
+  /// How many nodes each pixel visited, instead of visibility, of the tree that the last `query` made.
+  /// @param counts r32f
+  void count_nodes(const frame::FrameInputs& inputs, const gpu::Texture& counts);
+
+  /// Of the scene that the last `query` was of.
+  std::uint32_t cluster_count() const { return cluster_count_; }
+  double capsule_share() const { return capsule_share_; }
+  /// Clusters that the last `query` asked for every point, because the light is in them or nearly.
+  std::uint32_t always_asked() const;
+
+ private:
+  /// What a query writes in the place of visibility, a pixel.
+  enum class Counted : std::uint32_t { none, nodes, clusters, triangles };
+
+  /// What rounding and the scene's size make of the light's distances.
+  struct Distances {
+    float error;          ///< see Observer of shaders/surface_shadows/apparent.glsl
+    float slack;          ///< what a decision keeps clear of its limit
+    float root_distance;  ///< δ at the root
+  };
+  static Distances distances(const frame::FrameInputs& inputs, const LightScale& scale);
+
+  void load(const frame::FrameInputs& inputs);
+  void build(const frame::FrameInputs& inputs);
+  std::uint32_t write_light_view(const frame::FrameInputs& inputs) const;
+  void run(const frame::ScreenPass& pass, const frame::FrameInputs& inputs, const gpu::Texture& image) const;
+  frame::ScreenPass query_pass(Counted counted) const;
+
+  MetricTreeOptions options_;
+  gpu::Pipeline cones_program_, insert_program_;
+  frame::ScreenPass query_;
+
+  std::uint64_t scene_ = 0;  ///< SceneBuffers::id
+  std::uint32_t cluster_count_ = 0;
+  double capsule_share_ = 0.0;
+  CulledParts culled_parts_;
+  LightScale scale_;
+  gpu::Buffer clusters_, triangles_, nodes_, always_asked_, light_view_;
+  gpu::TexelView cluster_texels_, triangle_texels_, node_texels_, always_asked_texels_;
+};
+
+frame::SurfaceMethod metric_tree_method();
+
+}  // namespace airlight::surface_shadows
