@@ -24,6 +24,8 @@ struct MetricTreeOptions {
   Culling cull = Culling::none;
   int seed = 1;    ///< of the random order
   int stack = 32;  ///< nodes that a pixel's stack holds
+
+  bool ignores_cut_outs() const { return true; }
 };
 
 /// `metric-tree`: clusters of triangles, made once a scene, in a ternary tree by their distances from each

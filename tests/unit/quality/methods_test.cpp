@@ -298,9 +298,9 @@ TEST(MethodChoice, ThatTakesTrianglesWholeWarnsOfCutOuts) {
   warn_of_geometry(parse_volumes("vsv,march,froxel,reference"), parse_surfaces("shadow-map,vsv,reference"),
                    scene);
   EXPECT_TRUE(scene.report.warnings.empty());
-  warn_of_geometry(parse_volumes("vsv:populate=conservative"), parse_surfaces("psv,brute"), scene);
+  warn_of_geometry(parse_volumes("vsv:populate=conservative"), parse_surfaces("psv,brute,metric-tree"), scene);
   ASSERT_EQ(scene.report.warnings.size(), 1u);
-  EXPECT_THAT(scene.report.warnings[0], HasSubstr("vsv:populate=conservative, psv, brute cannot show"));
+  EXPECT_THAT(scene.report.warnings[0], HasSubstr("vsv:populate=conservative, psv, brute, metric-tree cannot show"));
 }
 
 TEST(SharedReference, TracesTheTruthOnceAndChargesForItTwice) {
