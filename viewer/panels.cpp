@@ -479,6 +479,7 @@ void Viewer::help_panel() {
                                          {"O", "epipolar lines"},
                                          {"P", "profiler"},
                                          {"F2", "panels"},
+                                         {"F5", "reload shaders whose sources have changed"},
                                          {"F12", "save the picture"},
                                          {"Ctrl + S", "save the shot"},
                                          {"Esc, Ctrl + Q", "close"}};
@@ -540,10 +541,6 @@ void Viewer::profiler() {
 }
 
 void Viewer::status_line() {
-  const float height = ImGui::GetFrameHeight();
-  ImDrawList& list = *ImGui::GetForegroundDrawList();
-  const glm::vec2 size(window_);
-  list.AddRectFilled({0.0f, size.y - height}, {size.x, size.y}, IM_COL32(20, 20, 24, 200));
   std::string text = fmt::format("{}x{}", pixels_.x, pixels_.y);
   if (left_.is_ready(drawn_rung_)) {
     const glm::ivec2 drawn = left_.size(drawn_rung_);
@@ -552,6 +549,11 @@ void Viewer::status_line() {
   }
   if (moving_ms_ > 0.0) text += fmt::format("   moving: {:.1f} frames a second", 1000.0 / moving_ms_);
   if (!message().empty()) text = message();
+  // A message may have several lines.
+  const float height = ImGui::CalcTextSize(text.c_str()).y + 6.0f;
+  ImDrawList& list = *ImGui::GetForegroundDrawList();
+  const glm::vec2 size(window_);
+  list.AddRectFilled({0.0f, size.y - height}, {size.x, size.y}, IM_COL32(20, 20, 24, 200));
   list.AddText({8.0f, size.y - height + 3.0f}, IM_COL32(230, 230, 230, 255), text.c_str());
 }
 

@@ -21,6 +21,8 @@
 #include "support/gpu_context.h"
 #include "support/paths.h"
 #include "support/scenes.h"
+#include "support/shader_folder.h"
+#include "viewer/cameras.h"
 
 namespace airlight::viewer {
 namespace {
@@ -505,6 +507,61 @@ TEST_F(Viewers, GrowByNothingOverManyFrames) {
   fly_about(15);
   EXPECT_LT(resident(), before + 16.0);  // MiB; what an allocator keeps
   EXPECT_EQ(viewer_->bytes(), on_gpu);
+}
+
+TEST_F(Viewers, ReloadShadersWhoseSourcesHaveChanged) {
+  const tests::ShaderFolder shaders;
+  const tests::EnvironmentValue named("AIRLIGHT_SHADERS", shaders.path().string());
+  start("window");
+  key(GLFW_KEY_F2);
+  rest();
+  // Above the status line, whose messages have up to four lines.
+  const auto picture = [&] {
+    std::vector<glm::ivec3> above = pixels();
+    above.resize(256 * 84);
+    return above;
+  };
+  const std::vector<glm::ivec3> before = picture();
+  const int drawn = viewer_->pictures_drawn();
+  key(GLFW_KEY_F5);
+  EXPECT_EQ(viewer_->message(), "no shader has changed");
+  rest();
+  EXPECT_EQ(viewer_->pictures_drawn(), drawn);
+  EXPECT_EQ(picture(), before);
+
+  // What brings the picture to the screen, …
+  shaders.replace("viewer/develop.frag", "vec4(srgb_of(", "vec4(1.0 - srgb_of(");
+  key(GLFW_KEY_F5);
+  EXPECT_EQ(viewer_->message(), "viewer/develop.frag reloaded");
+  rest();
+  const std::vector<glm::ivec3> negative = picture();
+  for (std::size_t i = 0; i < before.size(); ++i)
+    for (int c = 0; c < 3; ++c) ASSERT_NEAR(negative[i][c], 255 - before[i][c], 1) << i;
+
+  // … and what draws it: without airlight surfaces are left.
+  const std::string composite = shaders.read("frame/composite.frag");
+  shaders.replace("frame/composite.frag", "texelFetch(airlight_image, pixel, 0).rgb, 1.0)",
+                  "vec3(0.0), 1.0)");
+  key(GLFW_KEY_F5);
+  EXPECT_EQ(viewer_->message(), "frame/composite.frag reloaded");
+  rest();
+  const std::vector<glm::ivec3> clear = picture();
+  EXPECT_NE(clear, negative);
+
+  // One that does not compile changes nothing.
+  shaders.replace("frame/composite.frag", "void main() {", "void main() { nothing();");
+  key(GLFW_KEY_F5);
+  EXPECT_THAT(viewer_->message(),
+              testing::AllOf(HasSubstr("frame/composite.frag: it does not compile"), HasSubstr("'nothing'")));
+  rest();
+  EXPECT_EQ(picture(), clear);
+
+  shaders.write("frame/composite.frag", composite);
+  shaders.replace("viewer/develop.frag", "1.0 - srgb_of(", "srgb_of(");
+  key(GLFW_KEY_F5);
+  EXPECT_EQ(viewer_->message(), "2 shaders reloaded");
+  rest();
+  EXPECT_EQ(picture(), before);
 }
 
 TEST_F(Viewers, SaveShotsPicturesAndPaths) {
