@@ -381,7 +381,8 @@ void Viewer::path_panel() {
   gui_.note("key");
   for (std::size_t i = 0; i < keys_.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
-    if (ImGui::SmallButton("go")) shown_.view.camera = keys_[i].camera;
+    if (ImGui::SmallButton("go")) go_to_key(keys_[i]);
+    gui_.note(fmt::format("key{}-go", i));
     ImGui::SameLine();
     const bool is_removed = ImGui::SmallButton("x");
     gui_.note(fmt::format("key{}-x", i));
@@ -475,7 +476,7 @@ void Viewer::help_panel() {
                                          {"Home", "back to the first view"},
                                          {"Z", "magnifier, while held"},
                                          {"Space", "play and pause the path"},
-                                         {"K", "a key of a path here"},
+                                         {"K", "a key of a path: camera and lights as they are"},
                                          {"O", "epipolar lines"},
                                          {"P", "profiler"},
                                          {"F2", "panels"},

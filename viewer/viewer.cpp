@@ -320,7 +320,7 @@ void Viewer::set_path_time(double seconds) {
       path_->seconds > 0.0 ? path_seconds_ / path_->seconds * static_cast<double>(last) : 0.0;
   const scene::View& view = path_->views[std::min(static_cast<std::size_t>(std::lround(place)), last)];
   shown_.view.camera = view.camera;
-  if (view.lights.size() == shown_.view.lights.size()) shown_.view.lights = view.lights;
+  if (are_same_lights(view.lights, shown_.view.lights)) shown_.view.lights = view.lights;
 }
 
 Shown Viewer::shown_right() const {
@@ -676,22 +676,36 @@ void Viewer::save_shot() {
 }
 
 void Viewer::record_key() {
+  if (!keys_.empty() && !are_same_lights(keys_[0].lights, shown_.view.lights)) {
+    say("no key: a path's lights are those of its first key all along");
+    return;
+  }
   const double time = keys_.empty() ? 0.0 : keys_.back().time + 2.0;
-  keys_.push_back({time, shown_.view.camera});
+  keys_.push_back({time, shown_.view.camera, shown_.view.lights});
   say(fmt::format("key {} of the path at {} s", keys_.size(), time));
+}
+
+void Viewer::go_to_key(const PathKey& key) {
+  shown_.view.camera = key.camera;
+  if (are_same_lights(key.lights, shown_.view.lights)) shown_.view.lights = key.lights;
 }
 
 void Viewer::save_path() {
   try {
     std::filesystem::create_directories(folder_);
     const std::filesystem::path file = next_file("_path.toml");
+    // Lights that the scene does not have are those of a shot.
+    const bool is_of_scene = are_same_lights(start_.view.lights, keys_[0].lights);
+    scene::View view = shown_.view;
+    view.lights = is_of_scene ? start_.view.lights : keys_[0].lights;
     std::ofstream stream(file);
-    stream << path_of(keys_);
+    stream << path_of(keys_, view.lights);
     stream.close();
     if (!stream) throw scene::Error(scene::ExitCode::bad_file, file.string(), "it cannot be written");
-    path_ = scene::load_path(file, shown_.view);
+    path_ = scene::load_path(file, view);
     path_seconds_ = 0.0;
-    say(fmt::format("{} written; space plays it", file.string()));
+    say(fmt::format("{} written; space plays it{}", file.string(),
+                    is_of_scene ? "" : ", render on the shot that Ctrl + S saves with these lights"));
   } catch (const std::exception& error) {
     say(error.what());
   }

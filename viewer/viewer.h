@@ -116,6 +116,7 @@ class Viewer {
   void save_shot();
   void save_path();
   void record_key();
+  void go_to_key(const PathKey& key);
 
   // panels.cpp
   void draw_panels();

@@ -125,6 +125,38 @@ class Viewers : public testing::Test {
     return {};
   }
 
+  /// Runs a command of the program in the folder.
+  void run(const std::string& command) {
+    fs::create_directories(folder_);
+    const std::string line = fmt::format("cd '{}' && {}{} --quiet", folder_.string(), AIRLIGHT_BUILT_BINARY,
+                                         command.substr(std::string("airlight").size()));
+    ASSERT_EQ(std::system(line.c_str()), 0) << line;
+  }
+  /// The picture above the status line is what `render` has written.
+  void expect_shown(const fs::path& image) {
+    const quality::Image rendered = quality::read_exr(image);
+    const glm::ivec2 size = rendered.size;
+    ASSERT_EQ(size, viewer_->image().size());
+    const float exposure = viewer_->shown().exposure.value();
+    const std::vector<glm::ivec3> shown = pixels();
+    int compared = 0;
+    for (int y = 0; y < size.y - 24; ++y) {
+      for (int x = 0; x < size.x; ++x) {
+        const auto i = static_cast<std::size_t>(y * size.x + x);
+        for (int c = 0; c < 3; ++c) {
+          const float linear =
+              std::clamp(exposure * rendered.channels.at(std::string(1, "RGB"[c]))[i], 0.0f, 1.0f);
+          const float srgb =
+              linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+          // The driver's pow, and where a value lies half-way between two.
+          ASSERT_NEAR(static_cast<float>(shown[i][c]), 255.0f * srgb, 0.75f) << x << " " << y;
+          compared += linear > 0.0f ? 1 : 0;
+        }
+      }
+    }
+    EXPECT_GT(compared, 10000);
+  }
+
   fs::path folder_ = fs::temp_directory_path() / fmt::format("airlight-viewer-{}", getpid());
   std::optional<Viewer> viewer_;
   double now_ = 0.0;
@@ -137,32 +169,8 @@ TEST_F(Viewers, ShowTheImageOfTheCommandThatTheyCopy) {
   push(ScrollEvent{2.0});
   rest();
   EXPECT_EQ(viewer_->rung(), 0u);
-  const std::string command = viewer_->command();
-  fs::create_directories(folder_);
-  const std::string line = fmt::format("cd '{}' && {}{} --quiet", folder_.string(), AIRLIGHT_BUILT_BINARY,
-                                       command.substr(std::string("airlight").size()));
-  ASSERT_EQ(std::system(line.c_str()), 0) << line;
-  const quality::Image rendered = quality::read_exr(folder_ / "picture.exr");
-  const glm::ivec2 size = rendered.size;
-  ASSERT_EQ(size, viewer_->image().size());
-  const float exposure = viewer_->shown().exposure.value();
-  const std::vector<glm::ivec3> shown = pixels();
-  int compared = 0;
-  for (int y = 0; y < size.y - 24; ++y) {  // above the status line
-    for (int x = 0; x < size.x; ++x) {
-      const auto i = static_cast<std::size_t>(y * size.x + x);
-      for (int c = 0; c < 3; ++c) {
-        const float linear =
-            std::clamp(exposure * rendered.channels.at(std::string(1, "RGB"[c]))[i], 0.0f, 1.0f);
-        const float srgb =
-            linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
-        // The driver's pow, and where a value lies half-way between two.
-        ASSERT_NEAR(static_cast<float>(shown[i][c]), 255.0f * srgb, 0.75f) << x << " " << y;
-        compared += linear > 0.0f ? 1 : 0;
-      }
-    }
-  }
-  EXPECT_GT(compared, 10000);
+  run(viewer_->command());
+  expect_shown(folder_ / "picture.exr");
 }
 
 TEST_F(Viewers, DrawNothingAtRest) {
@@ -399,6 +407,77 @@ TEST_F(Viewers, RecordAPathAndPlayIt) {
   EXPECT_EQ(viewer_->shown().view.camera.eye, paused);
   click(place("path-time") + glm::dvec2(30, 0));
   EXPECT_NE(viewer_->shown().view.camera.eye, paused);
+  rest();
+}
+
+TEST_F(Viewers, RecordALampThatMovesAsRenderShowsIt) {
+  start("spheres", k_tall);
+  const scene::View view = viewer_->shown().view;
+  for (const char* open : {"Methods", "Beside", "Picture", "Path"}) click(open);
+  key(GLFW_KEY_K);
+  key(GLFW_KEY_F2);  // the panels away
+  const auto lamp = [&] {
+    const scene::View& shown = viewer_->shown().view;
+    return glm::dvec2(project(scene::camera_frame(shown.camera, k_tall), k_tall, shown.lights[0]));
+  };
+  drag(lamp(), lamp() + glm::dvec2(40, -60));
+  hold(GLFW_KEY_W, 4);
+  const scene::View second = viewer_->shown().view;
+  ASSERT_NE(second.lights[0].position, view.lights[0].position);
+  key(GLFW_KEY_F2);
+  key(GLFW_KEY_K);
+  // What happens after its last key is not the path's.
+  key(GLFW_KEY_F2);
+  drag(lamp(), lamp() - glm::dvec2(30, 0));
+  key(GLFW_KEY_F2);
+  frames(1);
+  click("save-path");
+  const fs::path path_file = file("_path.toml");
+  EXPECT_EQ(viewer_->message(), path_file.string() + " written; space plays it");
+  click("key1-go");
+  EXPECT_EQ(viewer_->shown().view.lights, second.lights);
+  EXPECT_EQ(viewer_->shown().view.camera, second.camera);
+
+  push(SizeEvent{{160, 120}, {160, 120}});
+  key(GLFW_KEY_F2);
+  key(GLFW_KEY_SPACE);
+  frames(30);
+  key(GLFW_KEY_SPACE);
+  rest();
+  const scene::Path path = scene::load_path(path_file, view);
+  ASSERT_EQ(path.views.size(), 61u);
+  EXPECT_EQ(path.views.front().lights, view.lights);
+  EXPECT_EQ(path.views.back().lights, second.lights);
+  std::size_t at = 0;
+  while (at < 61 && path.views[at].lights != viewer_->shown().view.lights) ++at;
+  ASSERT_LT(at, 60u) << "the window plays other lights than the file has";
+  EXPECT_GT(at, 5u);
+  EXPECT_EQ(path.views[at].camera, viewer_->shown().view.camera);
+  run(fmt::format(
+      "airlight render spheres --size 160x120 --volume {} --shadow-map 256 --path {} -o played.exr",
+      spec_of(viewer_->shown().volume), path_file.filename().string()));
+  expect_shown(folder_ / fmt::format("played{}.exr", scene::frame_ending(at)));
+}
+
+TEST_F(Viewers, RecordNoKeyOfOtherLights) {
+  start("window", k_tall);
+  for (const char* open : {"Methods", "Beside", "Picture", "Path", "Lights"}) click(open);
+  key(GLFW_KEY_K);
+  click("add-lamp");
+  key(GLFW_KEY_K);
+  EXPECT_THAT(viewer_->message(), HasSubstr("no key"));
+  // All keys with the lamp: then it is a path for what a shot keeps.
+  click("Lights");
+  click("key0-x");
+  key(GLFW_KEY_K);
+  hold(GLFW_KEY_W, 3);
+  key(GLFW_KEY_K);
+  click("save-path");
+  EXPECT_THAT(viewer_->message(), HasSubstr("Ctrl + S"));
+  key(GLFW_KEY_SPACE);
+  frames(5);
+  EXPECT_EQ(viewer_->shown().view.lights.size(), 2u);
+  key(GLFW_KEY_SPACE);
   rest();
 }
 
