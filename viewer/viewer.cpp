@@ -645,11 +645,26 @@ void Viewer::save_picture() {
     left_.show(shown_);
     const frame::FrameImages images = left_.draw(0, off).read();
     const std::filesystem::path file = next_file(".exr");
-    quality::write_frame(file, images,
-                         {{"airlight.command", command()}, {"airlight.version", quality::version()}});
+    const float exposure = shown_.exposure.value_or(quality::automatic_exposure(images.radiance));
+    Shown fitted = left_.shown(0);
+    fitted.volume.spec = spec_of(shown_.volume);
+    fitted.surface.spec = spec_of(shown_.surface);
+    quality::Making making{.scene = name_.spec,
+                           .model_options = {},
+                           .volume = fitted.volume,
+                           .surface = fitted.surface,
+                           .shadow_map = shown_.shadow_map,
+                           .exposure = exposure,
+                           .tone_map = shown_.tone_map,
+                           .renderer = context_.device().renderer,
+                           .command = command()};
+    const std::pair<const char*, const std::optional<std::string>&> model_options[] = {
+        {"albedo", name_.albedo}, {"looks", name_.looks}, {"triangles", name_.triangles}};
+    for (const auto& [name, value] : model_options)
+      if (value) making.model_options[name] = *value;
+    quality::write_frame(file, images, quality::metadata_of(making, shown_.view));
     std::filesystem::path preview = file;
-    quality::write_png(preview.replace_extension(".png"), images.radiance, images.size,
-                       shown_.exposure.value_or(quality::automatic_exposure(images.radiance)),
+    quality::write_png(preview.replace_extension(".png"), images.radiance, images.size, exposure,
                        shown_.tone_map);
     say(fmt::format("{} and {} written", file.string(), preview.filename().string()));
   } catch (const std::exception& error) {

@@ -647,8 +647,16 @@ TEST_F(Viewers, SaveShotsPicturesAndPaths) {
   start("window");
   key(GLFW_KEY_F12);
   EXPECT_THAT(viewer_->message(), HasSubstr("written"));
-  EXPECT_EQ(quality::read_exr(file(".exr")).size, glm::ivec2(256, 144));
-  EXPECT_TRUE(fs::exists(file(".png")));
+  const quality::Image saved = quality::read_exr(file("_001.exr"));
+  EXPECT_EQ(saved.size, glm::ivec2(256, 144));
+  EXPECT_TRUE(fs::exists(file("_001.png")));
+  // It says of itself what render says of the same image.
+  run(viewer_->command());
+  quality::Image rendered = quality::read_exr(file("picture.exr"));
+  EXPECT_EQ(saved.metadata.at("airlight.command"), viewer_->command());
+  rendered.metadata["airlight.command"] = viewer_->command();  // the same, spelt as it was typed
+  EXPECT_EQ(saved.metadata, rendered.metadata);
+  EXPECT_EQ(saved.channels, rendered.channels);
   push(KeyEvent{GLFW_KEY_LEFT_CONTROL, true});
   key(GLFW_KEY_S);
   push(KeyEvent{GLFW_KEY_LEFT_CONTROL, false});
