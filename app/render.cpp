@@ -61,26 +61,19 @@ struct Images {
   }
 
   std::map<std::string, std::string> metadata_of(const scene::View& view) const {
-    std::map<std::string, std::string> configuration = quality::view_options(view);
-    configuration["scene"] = options.scene;
-    configuration["volume"] = volume.spec;
-    configuration["surface"] = surface.spec;
-    for (const auto& [name, value] : volume.values()) configuration[name] = frame::text_of(value);
-    for (const auto& [name, value] : surface.values())
-      configuration["surface." + name] = frame::text_of(value);
-    if (quality::is_read("shadow-map", {&volume, 1}, {&surface, 1}))
-      configuration["shadow-map"] = fmt::format("{}", shadow_map);
-    configuration["exposure"] = fmt::format("{}", *exposure);
-    configuration["tone-map"] = scene::tone_map_name(subject.scene.tone_map);
+    quality::Making making{
+        .scene = options.scene,
+        .model_options = {},
+        .volume = volume,
+        .surface = surface,
+        .shadow_map = shadow_map,
+        .exposure = *exposure,
+        .tone_map = subject.scene.tone_map,
+        .renderer = renderer,
+        .command = fmt::format("{} -o {}", options.command_line({}), quality::shell_quote(options.output))};
     for (const char* name : {"albedo", "looks", "triangles"})
-      if (const auto text = options.get(name)) configuration[name] = *text;
-    configuration["version"] = quality::version();
-    configuration["renderer"] = renderer;
-    configuration["command"] =
-        fmt::format("{} -o {}", options.command_line({}), quality::shell_quote(options.output));
-    std::map<std::string, std::string> metadata;
-    for (const auto& [name, value] : configuration) metadata["airlight." + name] = value;
-    return metadata;
+      if (const auto text = options.get(name)) making.model_options[name] = *text;
+    return quality::metadata_of(making, view);
   }
 };
 

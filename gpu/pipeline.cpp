@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gpu/context.h"
+#include "gpu/replaced_shaders.h"
 #include "gpu/spirv.h"
 #include "scene/error.h"
 
@@ -24,6 +25,8 @@ void delete_shader(unsigned name) {
 using ShaderHandle = Handle<delete_shader>;
 
 struct Stage {
+  Stage(GLenum of_type, std::span<const std::uint32_t> embedded)
+      : type(of_type), words(current_words(embedded)), module(read_spirv(words)) {}
   GLenum type;
   std::span<const std::uint32_t> words;
   SpirvModule module;
@@ -158,7 +161,7 @@ void delete_program(unsigned name) {
 }
 
 Pipeline Pipeline::compute(std::span<const std::uint32_t> spirv, std::span<const Constant> constants) {
-  const Stage stage{GL_COMPUTE_SHADER, spirv, read_spirv(spirv)};
+  const Stage stage(GL_COMPUTE_SHADER, spirv);
   Pipeline pipeline;
   pipeline.handle_ = link(std::span(&stage, 1), constants);
   std::array<GLint, 3> group{};
@@ -178,7 +181,7 @@ Pipeline Pipeline::graphics(const GraphicsStages& stages, const FixedState& stat
        {GL_FRAGMENT_SHADER, stages.fragment}}};
   std::vector<Stage> present;
   for (const auto& [type, words] : all)
-    if (!words.empty()) present.push_back({type, words, read_spirv(words)});
+    if (!words.empty()) present.emplace_back(type, words);
   Pipeline pipeline;
   pipeline.handle_ = link(present, constants);
   pipeline.state_ = state;

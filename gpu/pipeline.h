@@ -78,7 +78,8 @@ struct FixedState {
   int patch_vertices = 3;  ///< of a patch, where there is tessellation
 };
 
-/// A linked program made from embedded SPIR-V, specialised at load, with its fixed state.
+/// A linked program made from embedded SPIR-V, or what has replaced it (replaced_shaders), specialised at
+/// load, with its fixed state.
 ///
 /// Between two passes OpenGL's fixed state is that of a new context: a pipeline sets what it needs before its
 /// draws, and takes it back after them.

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "quality/results.h"
+
 namespace airlight::quality {
 
 std::string skipped_lights(const frame::FrameImages& images) {
@@ -13,6 +15,27 @@ std::string skipped_lights(const frame::FrameImages& images) {
   for (std::size_t i = 0; i < images.lights.size(); ++i)
     if (images.is_skipped[i]) names += (names.empty() ? "" : ", ") + images.lights[i];
   return names;
+}
+
+std::map<std::string, std::string> metadata_of(const Making& making, const scene::View& view) {
+  std::map<std::string, std::string> configuration = view_options(view);
+  configuration["scene"] = making.scene;
+  configuration["volume"] = making.volume.spec;
+  configuration["surface"] = making.surface.spec;
+  for (const auto& [name, value] : making.volume.values()) configuration[name] = frame::text_of(value);
+  for (const auto& [name, value] : making.surface.values())
+    configuration["surface." + name] = frame::text_of(value);
+  if (is_read("shadow-map", {&making.volume, 1}, {&making.surface, 1}))
+    configuration["shadow-map"] = fmt::format("{}", making.shadow_map);
+  configuration["exposure"] = fmt::format("{}", making.exposure);
+  configuration["tone-map"] = scene::tone_map_name(making.tone_map);
+  for (const auto& [name, value] : making.model_options) configuration[name] = value;
+  configuration["version"] = version();
+  configuration["renderer"] = making.renderer;
+  configuration["command"] = making.command;
+  std::map<std::string, std::string> metadata;
+  for (const auto& [name, value] : configuration) metadata["airlight." + name] = value;
+  return metadata;
 }
 
 void write_frame(const std::filesystem::path& file, const frame::FrameImages& images,

@@ -7,12 +7,31 @@
 
 #include "frame/frame.h"
 #include "quality/image_io.h"
+#include "quality/methods.h"
 #include "quality/metrics.h"
+#include "scene/scene.h"
 
 namespace airlight::quality {
 
 /// The names of the lights that a frame left out; empty for none.
 std::string skipped_lights(const frame::FrameImages& images);
+
+/// How the image of a view was made.
+struct Making {
+  std::string scene;                                 ///< as the user named it
+  std::map<std::string, std::string> model_options;  ///< that were given: albedo, looks, triangles
+  const VolumeChoice& volume;                        ///< fitted to the view
+  const SurfaceChoice& surface;                      ///< the same
+  int shadow_map;                                    ///< side of a face [texels]
+  float exposure;
+  scene::ToneMap tone_map;
+  std::string renderer;
+  std::string command;  ///< repeats it
+};
+
+/// What the metadata of an image say of it: all choices of its view, methods and options, and what it was
+/// made by, each under "airlight." and the name of its option.
+std::map<std::string, std::string> metadata_of(const Making& making, const scene::View& view);
 
 /// Writes a frame as an EXR image with the channels R,G,B; airlight.R,G,B; surface.Y, the mean over lights;
 /// distance.Y. Where there are several lights, each has its airlight.NAME.R,G,B and surface.NAME.Y, too;

@@ -46,8 +46,11 @@ void Ladder::show(const Shown& shown) {
                         shown_->surface.words() != shown.surface.words() ||
                         shown_->shadow_map != shown.shadow_map || shown_->view.size != shown.view.size;
   shown_ = shown;
-  if (is_other)
-    for (OfRung& rung : of_rung_) rung.reset();
+  if (is_other) clear();
+}
+
+void Ladder::clear() {
+  for (OfRung& rung : of_rung_) rung.reset();
 }
 
 glm::ivec2 Ladder::size(std::size_t rung) const {

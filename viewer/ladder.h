@@ -35,6 +35,9 @@ class Ladder {
   /// What is drawn from now on. Of rungs whose methods or sizes change, what they had is freed.
   void show(const Shown& shown);
 
+  /// Frees what all rungs have: what is drawn next is made anew.
+  void clear();
+
   /// Draws a rung. @returns it once the GPU is done
   /// @throws scene::Error as Frame::render does, and where a method cannot show the view
   const frame::Frame& draw(std::size_t rung, gpu::StageTimer& timer,

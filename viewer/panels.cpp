@@ -381,7 +381,8 @@ void Viewer::path_panel() {
   gui_.note("key");
   for (std::size_t i = 0; i < keys_.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
-    if (ImGui::SmallButton("go")) shown_.view.camera = keys_[i].camera;
+    if (ImGui::SmallButton("go")) go_to_key(keys_[i]);
+    gui_.note(fmt::format("key{}-go", i));
     ImGui::SameLine();
     const bool is_removed = ImGui::SmallButton("x");
     gui_.note(fmt::format("key{}-x", i));
@@ -475,10 +476,11 @@ void Viewer::help_panel() {
                                          {"Home", "back to the first view"},
                                          {"Z", "magnifier, while held"},
                                          {"Space", "play and pause the path"},
-                                         {"K", "a key of a path here"},
+                                         {"K", "a key of a path: camera and lights as they are"},
                                          {"O", "epipolar lines"},
                                          {"P", "profiler"},
                                          {"F2", "panels"},
+                                         {"F5", "reload shaders whose sources have changed"},
                                          {"F12", "save the picture"},
                                          {"Ctrl + S", "save the shot"},
                                          {"Esc, Ctrl + Q", "close"}};
@@ -540,10 +542,6 @@ void Viewer::profiler() {
 }
 
 void Viewer::status_line() {
-  const float height = ImGui::GetFrameHeight();
-  ImDrawList& list = *ImGui::GetForegroundDrawList();
-  const glm::vec2 size(window_);
-  list.AddRectFilled({0.0f, size.y - height}, {size.x, size.y}, IM_COL32(20, 20, 24, 200));
   std::string text = fmt::format("{}x{}", pixels_.x, pixels_.y);
   if (left_.is_ready(drawn_rung_)) {
     const glm::ivec2 drawn = left_.size(drawn_rung_);
@@ -552,6 +550,11 @@ void Viewer::status_line() {
   }
   if (moving_ms_ > 0.0) text += fmt::format("   moving: {:.1f} frames a second", 1000.0 / moving_ms_);
   if (!message().empty()) text = message();
+  // A message may have several lines.
+  const float height = ImGui::CalcTextSize(text.c_str()).y + 6.0f;
+  ImDrawList& list = *ImGui::GetForegroundDrawList();
+  const glm::vec2 size(window_);
+  list.AddRectFilled({0.0f, size.y - height}, {size.x, size.y}, IM_COL32(20, 20, 24, 200));
   list.AddText({8.0f, size.y - height + 3.0f}, IM_COL32(230, 230, 230, 255), text.c_str());
 }
 

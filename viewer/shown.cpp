@@ -86,7 +86,13 @@ std::string command_of(const SceneName& scene, const Shown& shown, const std::st
   return fmt::format("{} -o {}", command, quality::shell_quote(output));
 }
 
-std::string path_of(std::span<const PathKey> keys) {
+bool are_same_lights(std::span<const scene::Light> a, std::span<const scene::Light> b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& one, const auto& other) {
+    return one.name == other.name && one.kind == other.kind;
+  });
+}
+
+std::string path_of(std::span<const PathKey> keys, std::span<const scene::Light> lights) {
   const double seconds = std::max(keys.back().time, 1.0);
   std::string path =
       fmt::format("frames = {}\nseconds = {}\n", static_cast<int>(std::lround(30.0 * seconds)) + 1, seconds);
@@ -95,6 +101,25 @@ std::string path_of(std::span<const PathKey> keys) {
     scene::for_each_value(key.camera, [&](const scene::FieldInfo& field, const scene::FieldValue& value) {
       path += toml_line(field, scene::text_of(value));
     });
+  }
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    std::vector<const scene::Field<scene::Light>*> changed;
+    for (const scene::Field<scene::Light>& field : scene::fields<scene::Light>()) {
+      const auto differs = [&](const PathKey& key) {
+        return field.get(key.lights[i]) != field.get(lights[i]);
+      };
+      // A texture's file lies between no two others.
+      if (field.kind != scene::FieldKind::file && std::any_of(keys.begin(), keys.end(), differs))
+        changed.push_back(&field);
+    }
+    if (changed.empty()) continue;
+    for (const PathKey& key : keys) {
+      path += fmt::format("\n[[{}]]\n", changed[0]->group);
+      if (lights.size() > 1) path += fmt::format("name = \"{}\"\n", i);
+      path += fmt::format("time = {}\n", key.time);
+      for (const scene::Field<scene::Light>* field : changed)
+        if (const auto value = field->get(key.lights[i])) path += toml_line(*field, scene::text_of(*value));
+    }
   }
   return path;
 }

@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "quality/methods.h"
 #include "scene/scene.h"
@@ -35,14 +36,21 @@ std::string spec_of(const quality::Choice<MethodType>& choice);
 /// @param output of -o
 std::string command_of(const SceneName& scene, const Shown& shown, const std::string& output);
 
-/// Where the camera of a path is at a time.
+/// Camera and lights of a path at a time.
 struct PathKey {
   double time;  ///< [s]
   scene::Camera camera;
+  std::vector<scene::Light> lights;
 };
 
-/// A path (scene::load_path) through them, of thirty frames a second.
-std::string path_of(std::span<const PathKey> keys);
+/// Whether one list of lights can become the other by moving and changing them: as many, each of the same
+/// name and kind.
+bool are_same_lights(std::span<const scene::Light> a, std::span<const scene::Light> b);
+
+/// A path (scene::load_path) through keys of the same lights, of thirty frames a second. Of lights it says
+/// what is not the same at all keys and in the view.
+/// @param lights of the view that the path is for: the same ones
+std::string path_of(std::span<const PathKey> keys, std::span<const scene::Light> lights);
 
 /// A shot (scene::load_shot) of it. Methods are no part of shots.
 std::string shot_of(const SceneName& scene, const Shown& shown);

@@ -61,7 +61,6 @@ Viewer::Viewer(gpu::Context& context, const scene::Scene& scene, SceneName name,
       buffers_(std::make_shared<const frame::SceneBuffers>(context, scene.geometry)),
       left_(context, scene.geometry, buffers_),
       right_(context, scene.geometry, buffers_),
-      develop_difference_(k_develop_frag, std::array{gpu::Constant(0, 1)}),
       speed_(0.1 * scene_size_) {}
 
 std::string Viewer::command() const {
@@ -74,9 +73,9 @@ std::int64_t Viewer::bytes() const {
   return sum;
 }
 
-void Viewer::say(const std::string& message) {
+void Viewer::say(const std::string& message, double seconds) {
   message_ = message;
-  message_until_ = now_ + 6.0;
+  message_until_ = now_ + seconds;
   frames_to_draw_ = std::max(frames_to_draw_, 1);
 }
 
@@ -184,6 +183,9 @@ void Viewer::take_keys(const std::vector<Event>& events, double elapsed) {
         break;
       case GLFW_KEY_F2:
         has_panels_ = !has_panels_;
+        break;
+      case GLFW_KEY_F5:
+        reload_shaders();
         break;
       case GLFW_KEY_F12:
         save_picture();
@@ -318,14 +320,19 @@ void Viewer::set_path_time(double seconds) {
       path_->seconds > 0.0 ? path_seconds_ / path_->seconds * static_cast<double>(last) : 0.0;
   const scene::View& view = path_->views[std::min(static_cast<std::size_t>(std::lround(place)), last)];
   shown_.view.camera = view.camera;
-  if (view.lights.size() == shown_.view.lights.size()) shown_.view.lights = view.lights;
+  if (are_same_lights(view.lights, shown_.view.lights)) shown_.view.lights = view.lights;
+}
+
+Shown Viewer::shown_right() const {
+  Shown right = shown_;
+  right.volume = right_volume_;
+  return right;
 }
 
 void Viewer::draw_picture(double seconds) {
   scene::validate(shown_.view);
   const bool has_right = beside_ == Beside::method;
-  Shown right = shown_;
-  right.volume = right_volume_;
+  const Shown right = shown_right();
   const bool is_changed = !drawn_ || !are_alike(*drawn_, shown_) ||
                           (has_right && (!drawn_right_ || !are_alike(*drawn_right_, right)));
   if (is_changed) {
@@ -499,6 +506,20 @@ void Viewer::follow_truth() {
   frames_to_draw_ = 1;
 }
 
+const frame::ScreenPass& Viewer::develop_as_shown() {
+  auto found = develop_.find(shown_.tone_map);
+  if (found == develop_.end()) {
+    const std::array tone_map = {gpu::Constant(1, static_cast<std::uint32_t>(shown_.tone_map))};
+    found = develop_.emplace(shown_.tone_map, frame::ScreenPass(k_develop_frag, tone_map)).first;
+  }
+  return found->second;
+}
+
+const frame::ScreenPass& Viewer::develop_difference() {
+  if (!develop_difference_) develop_difference_.emplace(k_develop_frag, std::array{gpu::Constant(0, 1)});
+  return *develop_difference_;
+}
+
 void Viewer::develop() {
   const gpu::Texture& left = left_.frame(drawn_rung_).radiance();
   const gpu::Texture* right = beside_ == Beside::method && right_.is_ready(drawn_rung_)
@@ -514,19 +535,13 @@ void Viewer::develop() {
     pass.pipeline().set(0, brightness);
     pass.run({picture});
   };
-  auto found = develop_.find(shown_.tone_map);
-  if (found == develop_.end()) {
-    const std::array tone_map = {gpu::Constant(1, static_cast<std::uint32_t>(shown_.tone_map))};
-    found = develop_.emplace(shown_.tone_map, frame::ScreenPass(k_develop_frag, tone_map)).first;
-  }
-  const frame::ScreenPass& as_shown = found->second;
   if (right) right->bind_sampler(1);
   if (is_difference)
-    develop(left_picture_, left, develop_difference_, exposure / difference_scale_);
+    develop(left_picture_, left, develop_difference(), exposure / difference_scale_);
   else
-    develop(left_picture_, left, as_shown, exposure);
+    develop(left_picture_, left, develop_as_shown(), exposure);
   if (right && layout_ == Layout::split)
-    develop(right_picture_, *right, as_shown, exposure);
+    develop(right_picture_, *right, develop_as_shown(), exposure);
   else
     right_picture_ = {};
 }
@@ -568,6 +583,52 @@ void Viewer::compose() {
   show(magnified, at - half / k_zoom, at + half / k_zoom, at - half, at + half, false);
 }
 
+void Viewer::make_programs_anew() {
+  left_.clear();
+  right_.clear();
+  develop_.clear();
+  develop_difference_.reset();
+  drawn_.reset();
+  drawn_right_.reset();
+  developed_.clear();
+  // What does not link is found now. Rungs of other sizes are of the same words.
+  left_.show(shown_);
+  gpu::StageTimer off(nullptr);
+  left_.draw(0, off);
+  if (beside_ == Beside::method) {
+    right_.show(shown_right());
+    right_.draw(0, off);
+  }
+  develop_as_shown();
+  develop_difference();
+}
+
+void Viewer::reload_shaders() {
+  constexpr double k_seconds_to_read = 60.0;
+  try {
+    scene::validate(shown_.view);
+    const ShaderSources::Changes changes = shader_sources_.compile_changes();
+    if (changes.names.empty()) {
+      say("no shader has changed");
+      return;
+    }
+    const gpu::ReplacedShaders before = gpu::replaced_shaders();
+    for (const auto& [embedded, words] : changes.words) gpu::replaced_shaders()[embedded] = words;
+    try {
+      make_programs_anew();
+    } catch (const scene::Error&) {
+      gpu::replaced_shaders() = before;
+      make_programs_anew();
+      throw;
+    }
+    shader_sources_.accept(changes);
+    say(changes.names.size() == 1 ? changes.names[0] + " reloaded"
+                                  : fmt::format("{} shaders reloaded", changes.names.size()));
+  } catch (const std::exception& error) {
+    say(error.what(), k_seconds_to_read);
+  }
+}
+
 std::filesystem::path Viewer::next_file(const std::string& ending) const {
   const std::string stem = std::filesystem::path(name_.spec).stem().string();
   for (int i = 1;; ++i) {
@@ -584,11 +645,26 @@ void Viewer::save_picture() {
     left_.show(shown_);
     const frame::FrameImages images = left_.draw(0, off).read();
     const std::filesystem::path file = next_file(".exr");
-    quality::write_frame(file, images,
-                         {{"airlight.command", command()}, {"airlight.version", quality::version()}});
+    const float exposure = shown_.exposure.value_or(quality::automatic_exposure(images.radiance));
+    Shown fitted = left_.shown(0);
+    fitted.volume.spec = spec_of(shown_.volume);
+    fitted.surface.spec = spec_of(shown_.surface);
+    quality::Making making{.scene = name_.spec,
+                           .model_options = {},
+                           .volume = fitted.volume,
+                           .surface = fitted.surface,
+                           .shadow_map = shown_.shadow_map,
+                           .exposure = exposure,
+                           .tone_map = shown_.tone_map,
+                           .renderer = context_.device().renderer,
+                           .command = command()};
+    const std::pair<const char*, const std::optional<std::string>&> model_options[] = {
+        {"albedo", name_.albedo}, {"looks", name_.looks}, {"triangles", name_.triangles}};
+    for (const auto& [name, value] : model_options)
+      if (value) making.model_options[name] = *value;
+    quality::write_frame(file, images, quality::metadata_of(making, shown_.view));
     std::filesystem::path preview = file;
-    quality::write_png(preview.replace_extension(".png"), images.radiance, images.size,
-                       shown_.exposure.value_or(quality::automatic_exposure(images.radiance)),
+    quality::write_png(preview.replace_extension(".png"), images.radiance, images.size, exposure,
                        shown_.tone_map);
     say(fmt::format("{} and {} written", file.string(), preview.filename().string()));
   } catch (const std::exception& error) {
@@ -615,22 +691,36 @@ void Viewer::save_shot() {
 }
 
 void Viewer::record_key() {
+  if (!keys_.empty() && !are_same_lights(keys_[0].lights, shown_.view.lights)) {
+    say("no key: a path's lights are those of its first key all along");
+    return;
+  }
   const double time = keys_.empty() ? 0.0 : keys_.back().time + 2.0;
-  keys_.push_back({time, shown_.view.camera});
+  keys_.push_back({time, shown_.view.camera, shown_.view.lights});
   say(fmt::format("key {} of the path at {} s", keys_.size(), time));
+}
+
+void Viewer::go_to_key(const PathKey& key) {
+  shown_.view.camera = key.camera;
+  if (are_same_lights(key.lights, shown_.view.lights)) shown_.view.lights = key.lights;
 }
 
 void Viewer::save_path() {
   try {
     std::filesystem::create_directories(folder_);
     const std::filesystem::path file = next_file("_path.toml");
+    // Lights that the scene does not have are those of a shot.
+    const bool is_of_scene = are_same_lights(start_.view.lights, keys_[0].lights);
+    scene::View view = shown_.view;
+    view.lights = is_of_scene ? start_.view.lights : keys_[0].lights;
     std::ofstream stream(file);
-    stream << path_of(keys_);
+    stream << path_of(keys_, view.lights);
     stream.close();
     if (!stream) throw scene::Error(scene::ExitCode::bad_file, file.string(), "it cannot be written");
-    path_ = scene::load_path(file, shown_.view);
+    path_ = scene::load_path(file, view);
     path_seconds_ = 0.0;
-    say(fmt::format("{} written; space plays it", file.string()));
+    say(fmt::format("{} written; space plays it{}", file.string(),
+                    is_of_scene ? "" : ", render on the shot that Ctrl + S saves with these lights"));
   } catch (const std::exception& error) {
     say(error.what());
   }

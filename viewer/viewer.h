@@ -17,6 +17,7 @@
 #include "viewer/events.h"
 #include "viewer/gui.h"
 #include "viewer/ladder.h"
+#include "viewer/shader_sources.h"
 #include "viewer/shown.h"
 #include "viewer/truth.h"
 
@@ -78,6 +79,7 @@ class Viewer {
   /// What the status line says in the place of the figures: what has just been done, or why there is no
   /// picture.
   const std::string& message() const { return message_.empty() ? problem_ : message_; }
+  int pictures_drawn() const { return pictures_drawn_; }
   std::optional<double> truth_error() const { return truth_error_; }  ///< rrmse of what is on screen
   /// On the GPU: the picture's images, volumes and maps at all sizes, the scene left out.
   std::int64_t bytes() const;
@@ -90,10 +92,13 @@ class Viewer {
   bool has_shift() const;
   bool has_control() const;
   void drag_light(glm::dvec2 from, glm::dvec2 to);
+  Shown shown_right() const;
   void draw_picture(double seconds);
   void draw_rung(std::size_t rung);
   void settle();
   void find_exposure();
+  const frame::ScreenPass& develop_as_shown();
+  const frame::ScreenPass& develop_difference();
   void develop();
   void compose();
   bool awaits_truth() const;
@@ -102,12 +107,16 @@ class Viewer {
   const std::vector<frame::DebugImage>& inspections();
   void judge_surfaces();
   void set_path_time(double seconds);
-  void say(const std::string& message);
+  void make_programs_anew();
+  void reload_shaders();
+  /// @param seconds how long it is shown
+  void say(const std::string& message, double seconds = 6.0);
   std::filesystem::path next_file(const std::string& ending) const;
   void save_picture();
   void save_shot();
   void save_path();
   void record_key();
+  void go_to_key(const PathKey& key);
 
   // panels.cpp
   void draw_panels();
@@ -168,7 +177,7 @@ class Viewer {
   bool exposure_is_old_ = true;                          ///< the automatic one is not of the picture as drawn
   std::deque<std::map<std::string, double>> history_;    ///< of frames, stages [ms]
   std::map<scene::ToneMap, frame::ScreenPass> develop_;  ///< made when first needed
-  frame::ScreenPass develop_difference_;
+  std::optional<frame::ScreenPass> develop_difference_;  ///< the same
   /// The pictures as the screen has colours, of their own sizes; row 0 at the top.
   gpu::Texture left_picture_, right_picture_;
   std::string developed_;  ///< what they have been developed from, in words; empty for nothing
@@ -179,6 +188,8 @@ class Viewer {
   gpu::Texture slice_;
   std::string slice_caption_;
   glm::dvec2 slice_at_{-1.0};
+
+  ShaderSources shader_sources_;
 
   // The truth.
   BackgroundTruth truth_;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "frame/screen_pass.h"
+#include "gpu/replaced_shaders.h"
 #include "scene/error.h"
 #include "support/gpu_context.h"
 
@@ -183,6 +184,20 @@ TEST(ScreenPass, WritesEveryTexelOnce) {
     frame::ScreenPass(k_one_frag).run({image});
     EXPECT_THAT(image.read<glm::vec4>(), testing::Each(glm::vec4(1, 2, 3, 4))) << size.x;
   }
+  gpu_context().check();
+}
+
+TEST(ScreenPass, IsOfTheWordsInThePlaceOfItsOwn) {
+  const Texture image(Format::rgba32f, {3, 2});
+  const frame::ScreenPass before(k_one_frag);
+  replaced_shaders()[k_one_frag].assign(std::begin(k_paint_frag), std::end(k_paint_frag));
+  const frame::ScreenPass after(k_one_frag);
+  replaced_shaders().clear();
+  after.pipeline().set(1, glm::uvec4(8, 0, 4, 0));
+  after.run({image});
+  EXPECT_THAT(image.read<glm::vec4>(), Each(glm::vec4(1, 0, 0.5, 0)));
+  before.run({image});
+  EXPECT_THAT(image.read<glm::vec4>(), Each(glm::vec4(1, 2, 3, 4)));
   gpu_context().check();
 }
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "scene/path.h"
 #include "scene/shot.h"
 
 namespace airlight::viewer {
@@ -98,6 +99,59 @@ TEST(ShownPictures, AreShotsThatReadBackTheSame) {
       EXPECT_EQ(read.lights[i], light) << i;
     }
   }
+  std::filesystem::remove(file);
+}
+
+TEST(ShownPictures, ArePathsOfWhatMoves) {
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("airlight-path-" + std::to_string(getpid()) + ".toml");
+  scene::View view = shown().view;
+  scene::Light spot = scene::point_light("", {1, 2, 3}, glm::vec3(5));
+  spot.cone = scene::Cone{.axis = glm::normalize(glm::dvec3(1, -1, 0)), .inner = 0.1, .outer = 0.4};
+  view.lights.push_back(spot);
+  view.lights.push_back(scene::sun("day", {0, 1, 1}, {2, 1, 0.5}));
+  view.lights.push_back(scene::point_light("rests", {0, 1, 0}, glm::vec3(1)));
+  std::vector<PathKey> keys = {{0.0, view.camera, view.lights}, {1.0, view.camera, view.lights}};
+  keys[1].camera.eye.y += 0.5;
+  keys[1].lights[0].position.x += 1.0 / 3.0;
+  keys[1].lights[1].position.y += 2.0;  // the axis stays
+  keys[0].lights[2].irradiance = {1, 1, 0.25};
+  keys[1].lights[2].towards = glm::normalize(glm::dvec3(1, 2, 3));
+
+  std::string text = path_of(keys, view.lights);
+  EXPECT_THAT(text, testing::Not(HasSubstr("\"3\""))) << "what rests is not in it";
+  std::ofstream(file) << text;
+  const scene::Path path = scene::load_path(file, view);
+  ASSERT_EQ(path.views.size(), 31u);
+  for (const PathKey& key : keys) {
+    const scene::View& at = key.time == 0.0 ? path.views.front() : path.views.back();
+    EXPECT_EQ(at.camera, key.camera);
+    ASSERT_TRUE(are_same_lights(at.lights, key.lights));
+    for (std::size_t i = 0; i < key.lights.size(); ++i) {
+      // Directions are brought to unit length once more, angles go by way of degrees.
+      EXPECT_EQ(at.lights[i].position, key.lights[i].position) << i;
+      EXPECT_EQ(at.lights[i].intensity, key.lights[i].intensity) << i;
+      EXPECT_EQ(at.lights[i].irradiance, key.lights[i].irradiance) << i;
+      EXPECT_LT(glm::distance(at.lights[i].towards, key.lights[i].towards), 1e-15) << i;
+      ASSERT_EQ(at.lights[i].cone.has_value(), key.lights[i].cone.has_value());
+      if (at.lights[i].cone) {
+        EXPECT_LT(glm::distance(at.lights[i].cone->axis, spot.cone->axis), 1e-15);
+      }
+    }
+  }
+  EXPECT_LT(glm::distance(path.views[15].lights[1].cone->axis, spot.cone->axis), 1e-15);
+  EXPECT_NEAR(path.views[15].lights[1].position.y, 3.0, 1e-12);
+
+  // A lone light needs no name, and is as all keys have it where the view has it otherwise.
+  const std::vector<scene::Light> elsewhere = {scene::point_light("one", {9, 9, 9}, {1, 2, 3})};
+  for (PathKey& key : keys) key.lights = {shown().view.lights[0]};
+  text = path_of(keys, elsewhere);
+  EXPECT_THAT(text, testing::AllOf(testing::Not(HasSubstr("name")), testing::Not(HasSubstr("intensity"))));
+  std::ofstream(file) << text;
+  view.lights = elsewhere;
+  for (const scene::View& at : scene::load_path(file, view).views)
+    EXPECT_EQ(at.lights[0].position, keys[0].lights[0].position);
+  EXPECT_FALSE(are_same_lights(elsewhere, {}));
   std::filesystem::remove(file);
 }
 

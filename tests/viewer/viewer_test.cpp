@@ -21,6 +21,8 @@
 #include "support/gpu_context.h"
 #include "support/paths.h"
 #include "support/scenes.h"
+#include "support/shader_folder.h"
+#include "viewer/cameras.h"
 
 namespace airlight::viewer {
 namespace {
@@ -123,6 +125,38 @@ class Viewers : public testing::Test {
     return {};
   }
 
+  /// Runs a command of the program in the folder.
+  void run(const std::string& command) {
+    fs::create_directories(folder_);
+    const std::string line = fmt::format("cd '{}' && {}{} --quiet", folder_.string(), AIRLIGHT_BUILT_BINARY,
+                                         command.substr(std::string("airlight").size()));
+    ASSERT_EQ(std::system(line.c_str()), 0) << line;
+  }
+  /// The picture above the status line is what `render` has written.
+  void expect_shown(const fs::path& image) {
+    const quality::Image rendered = quality::read_exr(image);
+    const glm::ivec2 size = rendered.size;
+    ASSERT_EQ(size, viewer_->image().size());
+    const float exposure = viewer_->shown().exposure.value();
+    const std::vector<glm::ivec3> shown = pixels();
+    int compared = 0;
+    for (int y = 0; y < size.y - 24; ++y) {
+      for (int x = 0; x < size.x; ++x) {
+        const auto i = static_cast<std::size_t>(y * size.x + x);
+        for (int c = 0; c < 3; ++c) {
+          const float linear =
+              std::clamp(exposure * rendered.channels.at(std::string(1, "RGB"[c]))[i], 0.0f, 1.0f);
+          const float srgb =
+              linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+          // The driver's pow, and where a value lies half-way between two.
+          ASSERT_NEAR(static_cast<float>(shown[i][c]), 255.0f * srgb, 0.75f) << x << " " << y;
+          compared += linear > 0.0f ? 1 : 0;
+        }
+      }
+    }
+    EXPECT_GT(compared, 10000);
+  }
+
   fs::path folder_ = fs::temp_directory_path() / fmt::format("airlight-viewer-{}", getpid());
   std::optional<Viewer> viewer_;
   double now_ = 0.0;
@@ -135,32 +169,8 @@ TEST_F(Viewers, ShowTheImageOfTheCommandThatTheyCopy) {
   push(ScrollEvent{2.0});
   rest();
   EXPECT_EQ(viewer_->rung(), 0u);
-  const std::string command = viewer_->command();
-  fs::create_directories(folder_);
-  const std::string line = fmt::format("cd '{}' && {}{} --quiet", folder_.string(), AIRLIGHT_BUILT_BINARY,
-                                       command.substr(std::string("airlight").size()));
-  ASSERT_EQ(std::system(line.c_str()), 0) << line;
-  const quality::Image rendered = quality::read_exr(folder_ / "picture.exr");
-  const glm::ivec2 size = rendered.size;
-  ASSERT_EQ(size, viewer_->image().size());
-  const float exposure = viewer_->shown().exposure.value();
-  const std::vector<glm::ivec3> shown = pixels();
-  int compared = 0;
-  for (int y = 0; y < size.y - 24; ++y) {  // above the status line
-    for (int x = 0; x < size.x; ++x) {
-      const auto i = static_cast<std::size_t>(y * size.x + x);
-      for (int c = 0; c < 3; ++c) {
-        const float linear =
-            std::clamp(exposure * rendered.channels.at(std::string(1, "RGB"[c]))[i], 0.0f, 1.0f);
-        const float srgb =
-            linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
-        // The driver's pow, and where a value lies half-way between two.
-        ASSERT_NEAR(static_cast<float>(shown[i][c]), 255.0f * srgb, 0.75f) << x << " " << y;
-        compared += linear > 0.0f ? 1 : 0;
-      }
-    }
-  }
-  EXPECT_GT(compared, 10000);
+  run(viewer_->command());
+  expect_shown(folder_ / "picture.exr");
 }
 
 TEST_F(Viewers, DrawNothingAtRest) {
@@ -400,6 +410,77 @@ TEST_F(Viewers, RecordAPathAndPlayIt) {
   rest();
 }
 
+TEST_F(Viewers, RecordALampThatMovesAsRenderShowsIt) {
+  start("spheres", k_tall);
+  const scene::View view = viewer_->shown().view;
+  for (const char* open : {"Methods", "Beside", "Picture", "Path"}) click(open);
+  key(GLFW_KEY_K);
+  key(GLFW_KEY_F2);  // the panels away
+  const auto lamp = [&] {
+    const scene::View& shown = viewer_->shown().view;
+    return glm::dvec2(project(scene::camera_frame(shown.camera, k_tall), k_tall, shown.lights[0]));
+  };
+  drag(lamp(), lamp() + glm::dvec2(40, -60));
+  hold(GLFW_KEY_W, 4);
+  const scene::View second = viewer_->shown().view;
+  ASSERT_NE(second.lights[0].position, view.lights[0].position);
+  key(GLFW_KEY_F2);
+  key(GLFW_KEY_K);
+  // What happens after its last key is not the path's.
+  key(GLFW_KEY_F2);
+  drag(lamp(), lamp() - glm::dvec2(30, 0));
+  key(GLFW_KEY_F2);
+  frames(1);
+  click("save-path");
+  const fs::path path_file = file("_path.toml");
+  EXPECT_EQ(viewer_->message(), path_file.string() + " written; space plays it");
+  click("key1-go");
+  EXPECT_EQ(viewer_->shown().view.lights, second.lights);
+  EXPECT_EQ(viewer_->shown().view.camera, second.camera);
+
+  push(SizeEvent{{160, 120}, {160, 120}});
+  key(GLFW_KEY_F2);
+  key(GLFW_KEY_SPACE);
+  frames(30);
+  key(GLFW_KEY_SPACE);
+  rest();
+  const scene::Path path = scene::load_path(path_file, view);
+  ASSERT_EQ(path.views.size(), 61u);
+  EXPECT_EQ(path.views.front().lights, view.lights);
+  EXPECT_EQ(path.views.back().lights, second.lights);
+  std::size_t at = 0;
+  while (at < 61 && path.views[at].lights != viewer_->shown().view.lights) ++at;
+  ASSERT_LT(at, 60u) << "the window plays other lights than the file has";
+  EXPECT_GT(at, 5u);
+  EXPECT_EQ(path.views[at].camera, viewer_->shown().view.camera);
+  run(fmt::format(
+      "airlight render spheres --size 160x120 --volume {} --shadow-map 256 --path {} -o played.exr",
+      spec_of(viewer_->shown().volume), path_file.filename().string()));
+  expect_shown(folder_ / fmt::format("played{}.exr", scene::frame_ending(at)));
+}
+
+TEST_F(Viewers, RecordNoKeyOfOtherLights) {
+  start("window", k_tall);
+  for (const char* open : {"Methods", "Beside", "Picture", "Path", "Lights"}) click(open);
+  key(GLFW_KEY_K);
+  click("add-lamp");
+  key(GLFW_KEY_K);
+  EXPECT_THAT(viewer_->message(), HasSubstr("no key"));
+  // All keys with the lamp: then it is a path for what a shot keeps.
+  click("Lights");
+  click("key0-x");
+  key(GLFW_KEY_K);
+  hold(GLFW_KEY_W, 3);
+  key(GLFW_KEY_K);
+  click("save-path");
+  EXPECT_THAT(viewer_->message(), HasSubstr("Ctrl + S"));
+  key(GLFW_KEY_SPACE);
+  frames(5);
+  EXPECT_EQ(viewer_->shown().view.lights.size(), 2u);
+  key(GLFW_KEY_SPACE);
+  rest();
+}
+
 TEST_F(Viewers, LookIntoTheMethod) {
   start("window", k_tall);
   click("slice");
@@ -507,12 +588,75 @@ TEST_F(Viewers, GrowByNothingOverManyFrames) {
   EXPECT_EQ(viewer_->bytes(), on_gpu);
 }
 
+TEST_F(Viewers, ReloadShadersWhoseSourcesHaveChanged) {
+  const tests::ShaderFolder shaders;
+  const tests::EnvironmentValue named("AIRLIGHT_SHADERS", shaders.path().string());
+  start("window");
+  key(GLFW_KEY_F2);
+  rest();
+  // Above the status line, whose messages have up to four lines.
+  const auto picture = [&] {
+    std::vector<glm::ivec3> above = pixels();
+    above.resize(256 * 84);
+    return above;
+  };
+  const std::vector<glm::ivec3> before = picture();
+  const int drawn = viewer_->pictures_drawn();
+  key(GLFW_KEY_F5);
+  EXPECT_EQ(viewer_->message(), "no shader has changed");
+  rest();
+  EXPECT_EQ(viewer_->pictures_drawn(), drawn);
+  EXPECT_EQ(picture(), before);
+
+  // What brings the picture to the screen, …
+  shaders.replace("viewer/develop.frag", "vec4(srgb_of(", "vec4(1.0 - srgb_of(");
+  key(GLFW_KEY_F5);
+  EXPECT_EQ(viewer_->message(), "viewer/develop.frag reloaded");
+  rest();
+  const std::vector<glm::ivec3> negative = picture();
+  for (std::size_t i = 0; i < before.size(); ++i)
+    for (int c = 0; c < 3; ++c) ASSERT_NEAR(negative[i][c], 255 - before[i][c], 1) << i;
+
+  // … and what draws it: without airlight surfaces are left.
+  const std::string composite = shaders.read("frame/composite.frag");
+  shaders.replace("frame/composite.frag", "texelFetch(airlight_image, pixel, 0).rgb, 1.0)",
+                  "vec3(0.0), 1.0)");
+  key(GLFW_KEY_F5);
+  EXPECT_EQ(viewer_->message(), "frame/composite.frag reloaded");
+  rest();
+  const std::vector<glm::ivec3> clear = picture();
+  EXPECT_NE(clear, negative);
+
+  // One that does not compile changes nothing.
+  shaders.replace("frame/composite.frag", "void main() {", "void main() { nothing();");
+  key(GLFW_KEY_F5);
+  EXPECT_THAT(viewer_->message(),
+              testing::AllOf(HasSubstr("frame/composite.frag: it does not compile"), HasSubstr("'nothing'")));
+  rest();
+  EXPECT_EQ(picture(), clear);
+
+  shaders.write("frame/composite.frag", composite);
+  shaders.replace("viewer/develop.frag", "1.0 - srgb_of(", "srgb_of(");
+  key(GLFW_KEY_F5);
+  EXPECT_EQ(viewer_->message(), "2 shaders reloaded");
+  rest();
+  EXPECT_EQ(picture(), before);
+}
+
 TEST_F(Viewers, SaveShotsPicturesAndPaths) {
   start("window");
   key(GLFW_KEY_F12);
   EXPECT_THAT(viewer_->message(), HasSubstr("written"));
-  EXPECT_EQ(quality::read_exr(file(".exr")).size, glm::ivec2(256, 144));
-  EXPECT_TRUE(fs::exists(file(".png")));
+  const quality::Image saved = quality::read_exr(file("_001.exr"));
+  EXPECT_EQ(saved.size, glm::ivec2(256, 144));
+  EXPECT_TRUE(fs::exists(file("_001.png")));
+  // It says of itself what render says of the same image.
+  run(viewer_->command());
+  quality::Image rendered = quality::read_exr(file("picture.exr"));
+  EXPECT_EQ(saved.metadata.at("airlight.command"), viewer_->command());
+  rendered.metadata["airlight.command"] = viewer_->command();  // the same, spelt as it was typed
+  EXPECT_EQ(saved.metadata, rendered.metadata);
+  EXPECT_EQ(saved.channels, rendered.channels);
   push(KeyEvent{GLFW_KEY_LEFT_CONTROL, true});
   key(GLFW_KEY_S);
   push(KeyEvent{GLFW_KEY_LEFT_CONTROL, false});
