@@ -30,12 +30,19 @@ void add_option(CLI::App& command, const OptionLine& line) {
       ->take_last();
 }
 
-/// What `render`, `compare` and `sweep` share.
-CLI::App& add_image_command(CLI::App& app, Options& options, const char* name, const char* description) {
+/// The scenes of `compare` and of `view` where none is named: one that is quick to trace, and one that is to
+/// be looked at.
+constexpr const char *k_compared_scene = "window", *k_viewed_scene = "lighthouse";
+
+/// What `render`, `compare`, `sweep` and `view` share.
+/// @param usual SCENE where it is left out; empty where it cannot be
+CLI::App& add_image_command(CLI::App& app, Options& options, const char* name, const char* description,
+                            const std::string& usual = {}) {
   CLI::App& command = *app.add_subcommand(name, description);
   command
       .add_option("SCENE", options.scene,
-                  "a built-in scene's name, a shot (.toml), or a .gltf, .glb, .obj or .ply file")
+                  "a built-in scene's name, a shot (.toml), or a .gltf, .glb, .obj or .ply file" +
+                      (usual.empty() ? "" : fmt::format(" (default: {})", usual)))
       ->type_name("");
   for (const OptionLine& line : common_options()) add_option(command, line);
   command.add_flag("--quiet", options.quiet, "say nothing but errors");
@@ -107,7 +114,8 @@ int run(int argc, char** argv) {
   add_option(render_command,
              {"video", "FILE.mp4", "along a path, a video of the images' previews too, by ffmpeg"});
 
-  CLI::App& view_command = add_image_command(app, options, "view", "opens a window to fly through a scene");
+  CLI::App& view_command =
+      add_image_command(app, options, "view", "opens a window to fly through a scene", k_viewed_scene);
   view_command
       .add_option("-o", options.output,
                   "folder for the pictures, shots and paths made there (default: out/SCENE)")
@@ -116,7 +124,8 @@ int run(int argc, char** argv) {
   add_option(view_command, {"surface", "METHOD", "surface shadow to begin with (default: shadow-map)"});
 
   CLI::App& compare_command = add_image_command(
-      app, options, "compare", "measures methods against the reference: time, error, images, report");
+      app, options, "compare", "measures methods against the reference: time, error, images, report",
+      k_compared_scene);
   compare_command
       .add_option("-o", options.output,
                   "folder for results.json, report.html and the images (default: out/SCENE)")
@@ -224,10 +233,10 @@ int run(int argc, char** argv) {
     require_scene("airlight render window -o out.exr");
     render(options);
   } else if (view_command.parsed()) {
-    if (options.scene.empty()) options.scene = "window";
+    if (options.scene.empty()) options.scene = k_viewed_scene;
     view(options);
   } else if (compare_command.parsed()) {
-    if (options.scene.empty()) options.scene = "window";
+    if (options.scene.empty()) options.scene = k_compared_scene;
     compare(options);
   } else if (sweep_command.parsed()) {
     require_scene("airlight sweep window --all -o out/sweep");

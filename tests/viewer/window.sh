@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Five tests of a real window: `window.sh AIRLIGHT`. It needs Xvfb with GLX, a window manager and xdotool; without them it is skipped.
+# Six tests of a real window: `window.sh AIRLIGHT`. It needs Xvfb with GLX, a window manager and xdotool; without them it is skipped.
 set -uo pipefail
 airlight=$1
 for tool in Xvfb openbox xdotool; do
@@ -20,8 +20,8 @@ read -r number <"$work/number" || { echo "Skipped: Xvfb does not start"; exit 77
 export DISPLAY=:$number
 openbox >"$work/openbox.log" 2>&1 &
 for _ in $(seq 100); do xdotool get_num_desktops >/dev/null 2>&1 && break; sleep 0.1; done # until it manages windows
-open_window() {
-  "$airlight" view window --size 480x270 --alpha 64 --theta 256 --phi 128 --shadow-map 256 --looks flat --tone-map aces -o "$work/out" >"$work/view.log" 2>&1 &
+open_window() { # [SCENE]
+  "$airlight" view "$@" --size 480x270 --alpha 64 --theta 256 --phi 128 --shadow-map 256 --looks flat --tone-map aces -o "$work/out" >"$work/view.log" 2>&1 &
   pid=$!
   for _ in $(seq 300); do
     window=$(xdotool search --onlyvisible --pid $pid 2>/dev/null | head -1)
@@ -41,7 +41,7 @@ written() { # ENDING
 }
 
 # 2. A picture by its key, of the window's size, with the command that repeats it.
-open_window
+open_window window
 xdotool key --window "$window" F12
 written .png
 written .exr
@@ -77,4 +77,10 @@ for _ in $(seq 100); do kill -0 $pid 2>/dev/null || break; sleep 0.1; done
 wait $pid
 [ $? -eq 0 ] || fail "it did not end well"
 [ ! -s "$work/view.log" ] || fail "it said something"
-echo "five tests of a real window passed"
+# 6. Without a scene it opens the one that its help names.
+usual=$("$airlight" view --help | grep -o '(default: [a-z]*)' | head -1)
+open_window
+[ "$(xdotool getwindowname "$window")" = "$(sed 's/(default: \(.*\))/\1 - Airlight/' <<<"$usual")" ] || fail "without a scene it opens $(xdotool getwindowname "$window")"
+xdotool key --window "$window" Escape
+wait $pid || fail "without a scene it did not end well"
+echo "six tests of a real window passed"
