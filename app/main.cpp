@@ -32,7 +32,7 @@ void add_option(CLI::App& command, const OptionLine& line) {
 
 /// The scenes of `compare` and of `view` where none is named: one that is quick to trace, and one that is to
 /// be looked at.
-constexpr const char *k_compared_scene = "window", *k_viewed_scene = "lighthouse";
+constexpr const char *k_compared_scene = "window", *k_viewed_scene = "jali";
 
 /// What `render`, `compare`, `sweep` and `view` share.
 /// @param usual SCENE where it is left out; empty where it cannot be

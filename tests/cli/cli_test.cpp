@@ -152,7 +152,7 @@ TEST_F(Commands, HelpAndVersionAreData) {
 }
 
 TEST_F(Commands, HelpNamesTheSceneWhereOneIsLeftOut) {
-  EXPECT_THAT(airlight({"view", "--help"}).out, HasSubstr("(default: lighthouse)"));
+  EXPECT_THAT(airlight({"view", "--help"}).out, HasSubstr("(default: jali)"));
   EXPECT_THAT(airlight({"compare", "--help"}).out, HasSubstr(".ply file (default: window)"));
   EXPECT_THAT(airlight({"render", "--help"}).out, Not(HasSubstr(".ply file (default")));
 }
