@@ -298,7 +298,7 @@ const ShadowCase& case_named(const std::string& name) {
                        [&](const ShadowCase& each) { return each.name == name; });
 }
 
-// Trees are made by chance; these factors are far from what was seen.
+// Trees are made by chance: of sixty, all were so.
 TEST(MetricTree, IsSparedWorkByEachOfItsMeans) {
   const ShadowCase& given = case_named("soup above");
   const Cost usual = cost_of(given.geometry, given.view, {.cluster = 4});

@@ -81,6 +81,11 @@ wait $pid
 usual=$("$airlight" view --help | grep -o '(default: [a-z]*)' | head -1)
 open_window
 [ "$(xdotool getwindowname "$window")" = "$(sed 's/(default: \(.*\))/\1 - Airlight/' <<<"$usual")" ] || fail "without a scene it opens $(xdotool getwindowname "$window")"
-xdotool key --window "$window" Escape
+for _ in $(seq 100); do # a window that has just opened may not listen yet
+  xdotool key --window "$window" Escape 2>/dev/null
+  sleep 0.2
+  kill -0 $pid 2>/dev/null || break
+done
+kill -0 $pid 2>/dev/null && fail "without a scene it does not close"
 wait $pid || fail "without a scene it did not end well"
 echo "six tests of a real window passed"
