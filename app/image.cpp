@@ -105,11 +105,9 @@ void tell_flip(const Options& options, const quality::ImageFile& x, const qualit
   if (map.empty())
     throw Error(ExitCode::bad_file, r.file.string(), "it is black: FLIP has no exposure for it",
                 "give --exposure");
-  double sum = 0.0;
-  for (const float value : map) sum += static_cast<double>(value);
   if (!options.output.empty())
     quality::write_png(options.output, quality::flip_colours(map), x.image.size, 1.0f);
-  print(fmt::format("{:.6g}\n", sum / static_cast<double>(map.size())));
+  print(fmt::format("{:.6g}\n", quality::flip::mean(map)));
 }
 
 }  // namespace

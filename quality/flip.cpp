@@ -11,8 +11,8 @@
 
 #include <fmt/format.h>
 
-#include "reference/parallel.h"
 #include "scene/error.h"
+#include "scene/parallel.h"
 
 namespace airlight::quality {
 namespace {
@@ -223,12 +223,8 @@ std::vector<float> worst_map(std::span<const glm::vec3> x, std::span<const glm::
       }
     };
   };
-  reference::parallel((size.y + k_band - 1) / k_band, make_worker, {});
+  scene::parallel((size.y + k_band - 1) / k_band, make_worker, {});
   return worst;
-}
-
-double mean(const std::vector<float>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 void require_images(std::span<const glm::vec3> x, std::span<const glm::vec3> r, glm::ivec2 size) {
@@ -340,6 +336,10 @@ float tone_mapped(float radiance) {
   return std::min((x * (k_a * x + k_b)) / (x * (k_c * x + k_d) + k_e), 1.0f);
 }
 
+double mean(const std::vector<float>& map) {
+  return std::accumulate(map.begin(), map.end(), 0.0) / static_cast<double>(map.size());
+}
+
 std::vector<float> map(std::span<const glm::vec3> x, std::span<const glm::vec3> r, glm::ivec2 size) {
   const float exposure = 1.0f;
   return worst_map(x, r, size, {&exposure, 1}, [](const glm::vec3& colour, float) { return colour; });
@@ -356,7 +356,7 @@ std::vector<float> ldr_flip_map(std::span<const glm::vec3> x, std::span<const gl
 }
 
 double ldr_flip(std::span<const glm::vec3> x, std::span<const glm::vec3> r, glm::ivec2 size, float exposure) {
-  return mean(ldr_flip_map(x, r, size, exposure));
+  return flip::mean(ldr_flip_map(x, r, size, exposure));
 }
 
 std::vector<float> flip_exposures(std::span<const glm::vec3> r, double floor) {
@@ -399,7 +399,7 @@ std::vector<float> hdr_flip_map(std::span<const glm::vec3> x, std::span<const gl
 
 double hdr_flip(std::span<const glm::vec3> x, std::span<const glm::vec3> r, glm::ivec2 size, double floor) {
   const std::vector<float> map = hdr_flip_map(x, r, size, floor);
-  return map.empty() ? std::numeric_limits<double>::quiet_NaN() : mean(map);
+  return map.empty() ? std::numeric_limits<double>::quiet_NaN() : flip::mean(map);
 }
 
 }  // namespace airlight::quality

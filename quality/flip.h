@@ -86,6 +86,9 @@ const FeatureFilters& feature_filters();
 /// 2016.
 float tone_mapped(float radiance);
 
+/// Of a map that is not empty.
+double mean(const std::vector<float>& map);
+
 /// LDR-ꟻLIP of each pixel. @param x, r linear RGB in [0, 1]
 std::vector<float> map(std::span<const glm::vec3> x, std::span<const glm::vec3> r, glm::ivec2 size);
 

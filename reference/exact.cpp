@@ -8,11 +8,11 @@
 
 #include "reference/fog_quadrature.h"
 #include "reference/hierarchy.h"
-#include "reference/parallel.h"
 #include "reference/reference.h"
 #include "reference/run_integrals.h"
 #include "reference/shadow_intervals.h"
 #include "reference/state.h"
+#include "scene/parallel.h"
 
 // The airlight without sampling: which part of each view ray is lit follows from the triangles
 // (shadow_intervals.h), and lit runs are integrated by Gauss–Legendre quadrature (fog_quadrature.h), a sun's
@@ -199,7 +199,7 @@ AirlightImage Reference::exact_along(int refinement, const Progress& progress) c
           integrator.integrate({from, glm::min(from + k_tile, state.view.size)});
     };
   };
-  parallel(tiles.x * tiles.y, make_worker, progress);
+  scene::parallel(tiles.x * tiles.y, make_worker, progress);
 
   image.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   Sums total;

@@ -11,13 +11,13 @@
 #include "reference/fan.h"
 #include "reference/fog_quadrature.h"
 #include "reference/light_shape.h"
-#include "reference/parallel.h"
 #include "reference/phase.h"
 #include "reference/reference.h"
 #include "reference/shadowable.h"
 #include "reference/state.h"
 #include "reference/sun_steps.h"
 #include "scene/error.h"
+#include "scene/parallel.h"
 
 // The airlight by brute force: a shadow ray at every step along every view ray.
 //
@@ -169,7 +169,7 @@ AirlightImage Reference::march_to_sun(int samples, RayMode mode, const Progress&
       }
     };
   };
-  parallel(state.view.size.y, make_worker, progress);
+  scene::parallel(state.view.size.y, make_worker, progress);
 
   image.rays = marched * static_cast<std::uint64_t>(samples);
   image.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -224,7 +224,7 @@ AirlightImage Reference::march_to_point(int samples, RayMode mode, const Progres
       }
     };
   };
-  parallel(state.view.size.y, make_worker, progress);
+  scene::parallel(state.view.size.y, make_worker, progress);
 
   image.rays = marched * static_cast<std::uint64_t>(samples);
   image.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

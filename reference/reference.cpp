@@ -1,7 +1,7 @@
 #include "reference/reference.h"
 
-#include "reference/parallel.h"
 #include "reference/state.h"
+#include "scene/parallel.h"
 
 namespace airlight::reference {
 
@@ -90,7 +90,7 @@ SurfaceImage Reference::surfaces(const Progress& progress) const {
       }
     };
   };
-  parallel(state.view.size.y, make_worker, progress);
+  scene::parallel(state.view.size.y, make_worker, progress);
   return image;
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "scene/parallel.h"
 #include "scene/scene.h"
 
 namespace airlight::reference {
@@ -36,7 +37,7 @@ struct AirlightImage {
 
 enum class RayMode { single, packet };
 
-using Progress = std::function<void(double fraction)>;  ///< called from the calling thread only
+using Progress = scene::Progress;
 
 /// Exact visibility by ray casting (Embree), on every core.
 ///

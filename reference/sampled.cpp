@@ -9,13 +9,13 @@
 #include <fmt/format.h>
 
 #include "reference/fan.h"
-#include "reference/parallel.h"
 #include "reference/reference.h"
 #include "reference/run_integrals.h"
 #include "reference/shadowable.h"
 #include "reference/state.h"
 #include "reference/sun_steps.h"
 #include "scene/error.h"
+#include "scene/parallel.h"
 
 // The airlight to the limit of what ray casting can tell: shadow boundaries along each view ray are found to
 // 1e-6 of the ray's range of φ, and the light between them is integrated to 1e-6. Under a sun the range is
@@ -215,7 +215,7 @@ AirlightImage Reference::sampled_along(int samples, const Progress& progress) co
       row.rays += runs.rays() - rays_before;
     };
   };
-  parallel(state.view.size.y, make_worker, progress);
+  scene::parallel(state.view.size.y, make_worker, progress);
 
   image.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   RowSums total;

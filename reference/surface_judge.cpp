@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "reference/exact_sum.h"
-#include "reference/parallel.h"
+#include "scene/parallel.h"
 
 namespace airlight::reference {
 
@@ -330,15 +330,15 @@ SurfaceVerdict SurfaceJudge::judge(const SurfacePoint& point) const {
 std::vector<SurfaceVerdict> SurfaceJudge::judge(std::span<const SurfacePoint> points) const {
   std::vector<SurfaceVerdict> verdicts(points.size());
   const auto parts = static_cast<int>((points.size() + k_part - 1) / k_part);
-  parallel(parts,
-           [&] {
-             return [&, scratch = Scratch()](int part) mutable {
-               const std::size_t from = static_cast<std::size_t>(part) * k_part;
-               const std::size_t to = std::min(from + k_part, points.size());
-               for (std::size_t i = from; i < to; ++i) verdicts[i] = judge(points[i], scratch);
-             };
-           },
-           {});
+  scene::parallel(parts,
+                  [&] {
+                    return [&, scratch = Scratch()](int part) mutable {
+                      const std::size_t from = static_cast<std::size_t>(part) * k_part;
+                      const std::size_t to = std::min(from + k_part, points.size());
+                      for (std::size_t i = from; i < to; ++i) verdicts[i] = judge(points[i], scratch);
+                    };
+                  },
+                  {});
   return verdicts;
 }
 

@@ -306,10 +306,10 @@ Scene import_obj(const std::filesystem::path& file, Looks looks) {
         continue;
       }
       raw.texture_places.resize(raw.triangles.size());
+      const tinyobj::texture_option_t& options =
+          texture_options(file, materials[static_cast<std::size_t>(material)]);
       for (std::size_t corner = 0; corner < 3; ++corner)
-        raw.texture_places.back()[corner] =
-            texture_place(file, attributes, corners[corner],
-                          texture_options(file, materials[static_cast<std::size_t>(material)]));
+        raw.texture_places.back()[corner] = texture_place(file, attributes, corners[corner], options);
     }
   }
   if (raw.triangles.size() < survey.triangles)

@@ -208,17 +208,13 @@ void show_flat(Scene& scene) {
 }
 
 void override_albedo(Geometry& geometry, glm::vec3 albedo) {
-  if (has_cut_outs(geometry)) {
-    for (Material& material : geometry.materials) {
-      material.albedo = albedo;
-      material.texture.reset();
-    }
-    return;
+  for (Material& material : geometry.materials) {
+    material.albedo = albedo;
+    material.texture.reset();
   }
-  geometry.materials = {{albedo}};
+  if (has_cut_outs(geometry)) return;
   geometry.textures.clear();
   geometry.texture_places.clear();
-  std::fill(geometry.material_of_triangle.begin(), geometry.material_of_triangle.end(), 0u);
 }
 
 Camera fit_camera(const Geometry& geometry) {

@@ -8,6 +8,7 @@
 
 #include "frame/blocks.h"
 #include "frame/clusters.h"
+#include "surface_shadows/tree_options.h"
 #include "surface_shadows/triangle_clusters.h"
 
 #include "spirv/surface_shadows/metric_tree_cones_comp.h"
@@ -252,20 +253,7 @@ frame::SurfaceMethod metric_tree_method() {
                   "off visits more nodes", &Options::interval_cull),
        use_option("light-view", "whether clusters are left out of the tree that hide nothing in view",
                   "off has a larger tree", &Options::light_view),
-       culling_option(&Options::cull),
-       frame::count_option<Options>({.name = "seed",
-                                     .meaning = "of the random order",
-                                     .quality = "none",
-                                     .cost = "a few percent, by chance",
-                                     .sweep = {"1", "2", "3"}},
-                                    {.least = 0}, &Options::seed),
-       frame::count_option<Options>(
-           {.name = "stack",
-            .meaning = "nodes that the stack holds",
-            .quality = "none",
-            .cost = "registers, or the way without a stack for pixels that need more",
-            .sweep = {"24", "32", "64"}},
-           {.least = 1, .most = 128}, &Options::stack)},
+       culling_option(&Options::cull), seed_option(&Options::seed), stack_option(&Options::stack)},
       [](const gpu::Context&, const Options& options) { return std::make_unique<MetricTree>(options); });
 }
 

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "frame/blocks.h"
+#include "surface_shadows/tree_options.h"
 
 #include "spirv/surface_shadows/psv_insert_comp.h"
 #include "spirv/surface_shadows/psv_planes_comp.h"
@@ -126,12 +127,7 @@ frame::SurfaceMethod psv_method() {
            {{"random", "shuffled once a scene"},
             {"file", "as neighbours follow each other in the scene's buffers"}},
            &Options::order),
-       frame::count_option<Options>({.name = "seed",
-                                     .meaning = "of the random order",
-                                     .quality = "none",
-                                     .cost = "a few percent, by chance",
-                                     .sweep = {"1", "2", "3"}},
-                                    {.least = 0}, &Options::seed),
+       seed_option(&Options::seed),
        frame::word_option<Options, Traversal>(
            {.name = "traversal",
             .meaning = "how a pixel finds back to nodes that it left for later",
@@ -141,13 +137,7 @@ frame::SurfaceMethod psv_method() {
            {{"stack", "by a stack, and where it overflows without"},
             {"stackless", "by the tree itself, each node decided anew"}},
            &Options::traversal),
-       frame::count_option<Options>(
-           {.name = "stack",
-            .meaning = "nodes that the stack holds",
-            .quality = "none",
-            .cost = "registers, or the way without a stack for pixels that need more",
-            .sweep = {"24", "32", "64"}},
-           {.least = 1, .most = 128}, &Options::stack)},
+       stack_option(&Options::stack)},
       [](const gpu::Context&, const Options& options) { return std::make_unique<Psv>(options); });
 }
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cstddef>
 #include <limits>
 #include <numeric>
 #include <random>
-#include <thread>
+
+#include "scene/parallel.h"
 
 namespace airlight::surface_shadows {
 namespace {
@@ -119,18 +119,6 @@ class Chunk {
   std::vector<std::size_t> ends_;
 };
 
-/// Calls `work(i)` for each i below `count`, on all cores.
-template <class Work>
-void on_all_cores(std::size_t count, const Work& work) {
-  std::atomic<std::size_t> next = 0;
-  const auto worker = [&] {
-    for (std::size_t i = next++; i < count; i = next++) work(i);
-  };
-  std::vector<std::jthread> helpers;
-  for (unsigned i = 1; i < std::thread::hardware_concurrency(); ++i) helpers.emplace_back(worker);
-  worker();
-}
-
 }  // namespace
 
 TriangleClusters make_triangle_clusters(const scene::Geometry& geometry, std::span<const std::uint32_t> order,
@@ -146,15 +134,13 @@ TriangleClusters make_triangle_clusters(const scene::Geometry& geometry, std::sp
                    [&](std::uint32_t a, std::uint32_t b) { return part_of(a) < part_of(b); });
 
   std::vector<Extent> extents(order.size());
-  on_all_cores((order.size() + k_chunk - 1) / k_chunk, [&](std::size_t chunk) {
-    for (std::size_t i = chunk * k_chunk; i < std::min((chunk + 1) * k_chunk, order.size()); ++i) {
-      const glm::uvec3 t = geometry.triangles[order[i]];
-      for (const glm::uint corner : {t.x, t.y, t.z}) {
-        extents[i].lower = glm::min(extents[i].lower, glm::dvec3(geometry.positions[corner]));
-        extents[i].upper = glm::max(extents[i].upper, glm::dvec3(geometry.positions[corner]));
-      }
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const glm::uvec3 t = geometry.triangles[order[i]];
+    for (const glm::uint corner : {t.x, t.y, t.z}) {
+      extents[i].lower = glm::min(extents[i].lower, glm::dvec3(geometry.positions[corner]));
+      extents[i].upper = glm::max(extents[i].upper, glm::dvec3(geometry.positions[corner]));
     }
-  });
+  }
 
   // Chunks, none of which spans parts.
   std::vector<std::size_t> starts;
@@ -166,7 +152,8 @@ TriangleClusters make_triangle_clusters(const scene::Geometry& geometry, std::sp
 
   // Their clusters, each chunk for itself.
   std::vector<std::vector<TriangleCluster>> of_chunks(starts.size() - 1);
-  on_all_cores(of_chunks.size(), [&](std::size_t chunk) {
+  const auto cut_chunk = [&](int part) {
+    const auto chunk = static_cast<std::size_t>(part);
     const std::span<std::uint32_t> places =
         std::span(result.triangles).subspan(starts[chunk], starts[chunk + 1] - starts[chunk]);
     std::size_t first = 0;
@@ -181,7 +168,8 @@ TriangleClusters make_triangle_clusters(const scene::Geometry& geometry, std::sp
            static_cast<std::uint32_t>(end - first) + k_part_unit * part_of(places[first])});
       first = end;
     }
-  });
+  };
+  scene::parallel(static_cast<int>(of_chunks.size()), [&] { return cut_chunk; });
   for (const std::vector<TriangleCluster>& of_chunk : of_chunks)
     result.clusters.insert(result.clusters.end(), of_chunk.begin(), of_chunk.end());
   return result;

@@ -381,7 +381,7 @@ void Viewer::path_panel() {
   gui_.note("key");
   for (std::size_t i = 0; i < keys_.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
-    if (ImGui::SmallButton("go")) go_to_key(keys_[i]);
+    if (ImGui::SmallButton("go")) show_moment(keys_[i].camera, keys_[i].lights);
     gui_.note(fmt::format("key{}-go", i));
     ImGui::SameLine();
     const bool is_removed = ImGui::SmallButton("x");

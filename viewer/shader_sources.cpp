@@ -18,8 +18,8 @@
 
 #include "gpu/spirv.h"
 #include "quality/results.h"
-#include "reference/parallel.h"
 #include "scene/error.h"
+#include "scene/parallel.h"
 
 #include "every_shader.h"
 
@@ -161,16 +161,16 @@ ShaderSources::Changes ShaderSources::compile_changes() const {
   }
   const ScratchFolder scratch;
   std::mutex mutex;
-  reference::parallel(static_cast<int>(changed.size()),
-                      [&] {
-                        return [&](int i) {
-                          const EmbeddedShader& shader = *changed[static_cast<std::size_t>(i)];
-                          auto words = compile(shader, folder_, scratch.path() / fmt::format("{}.spv", i));
-                          const std::scoped_lock lock(mutex);
-                          changes.words[shader.words.data()] = std::move(words);
-                        };
-                      },
-                      {});
+  scene::parallel(static_cast<int>(changed.size()),
+                  [&] {
+                    return [&](int i) {
+                      const EmbeddedShader& shader = *changed[static_cast<std::size_t>(i)];
+                      auto words = compile(shader, folder_, scratch.path() / fmt::format("{}.spv", i));
+                      const std::scoped_lock lock(mutex);
+                      changes.words[shader.words.data()] = std::move(words);
+                    };
+                  },
+                  {});
   return changes;
 }
 

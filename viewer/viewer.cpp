@@ -319,8 +319,7 @@ void Viewer::set_path_time(double seconds) {
   const double place =
       path_->seconds > 0.0 ? path_seconds_ / path_->seconds * static_cast<double>(last) : 0.0;
   const scene::View& view = path_->views[std::min(static_cast<std::size_t>(std::lround(place)), last)];
-  shown_.view.camera = view.camera;
-  if (are_same_lights(view.lights, shown_.view.lights)) shown_.view.lights = view.lights;
+  show_moment(view.camera, view.lights);
 }
 
 Shown Viewer::shown_right() const {
@@ -700,9 +699,9 @@ void Viewer::record_key() {
   say(fmt::format("key {} of the path at {} s", keys_.size(), time));
 }
 
-void Viewer::go_to_key(const PathKey& key) {
-  shown_.view.camera = key.camera;
-  if (are_same_lights(key.lights, shown_.view.lights)) shown_.view.lights = key.lights;
+void Viewer::show_moment(const scene::Camera& camera, const std::vector<scene::Light>& lights) {
+  shown_.view.camera = camera;
+  if (are_same_lights(lights, shown_.view.lights)) shown_.view.lights = lights;
 }
 
 void Viewer::save_path() {

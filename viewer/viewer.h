@@ -116,7 +116,8 @@ class Viewer {
   void save_shot();
   void save_path();
   void record_key();
-  void go_to_key(const PathKey& key);
+  /// Of a path: its lights only where they are those shown.
+  void show_moment(const scene::Camera& camera, const std::vector<scene::Light>& lights);
 
   // panels.cpp
   void draw_panels();

@@ -28,9 +28,9 @@
 #include "frame/point_reader.h"
 #include "gpu/context.h"
 #include "quality/statistics.h"
-#include "reference/parallel.h"
 #include "report.h"
 #include "scene/builtin.h"
+#include "scene/parallel.h"
 #include "support/scenes.h"
 #include "surface_shadows/brute.h"
 #include "surface_shadows/metric_tree.h"
@@ -84,35 +84,35 @@ class EmbreePackets {
   /// @param points relative to the light, as of frame::SurfacePoints
   void ask(const std::vector<glm::vec4>& points, glm::vec3 light) const {
     constexpr std::size_t k_packet = 8, k_part = 4096;
-    reference::parallel(static_cast<int>((points.size() + k_part - 1) / k_part),
-                        [&] {
-                          return [&](int part) {
-                            RTCIntersectContext context;
-                            rtcInitIntersectContext(&context);
-                            context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-                            const std::size_t first = static_cast<std::size_t>(part) * k_part;
-                            for (std::size_t at = first; at < std::min(first + k_part, points.size());
-                                 at += k_packet) {
-                              alignas(32) int valid[k_packet];
-                              alignas(32) RTCRay8 rays{};
-                              for (std::size_t i = 0; i < k_packet; ++i) {
-                                const bool is_asked = at + i < points.size() && points[at + i].w > 0.0f;
-                                valid[i] = is_asked ? -1 : 0;
-                                if (!is_asked) continue;
-                                rays.org_x[i] = light.x;
-                                rays.org_y[i] = light.y;
-                                rays.org_z[i] = light.z;
-                                rays.dir_x[i] = points[at + i].x;
-                                rays.dir_y[i] = points[at + i].y;
-                                rays.dir_z[i] = points[at + i].z;
-                                rays.tfar[i] = 0.9999f;  // before the surface itself
-                                rays.mask[i] = ~0u;
-                              }
-                              rtcOccluded8(valid, scene_, &context, &rays);
-                            }
-                          };
-                        },
-                        {});
+    scene::parallel(static_cast<int>((points.size() + k_part - 1) / k_part),
+                    [&] {
+                      return [&](int part) {
+                        RTCIntersectContext context;
+                        rtcInitIntersectContext(&context);
+                        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+                        const std::size_t first = static_cast<std::size_t>(part) * k_part;
+                        for (std::size_t at = first; at < std::min(first + k_part, points.size());
+                             at += k_packet) {
+                          alignas(32) int valid[k_packet];
+                          alignas(32) RTCRay8 rays{};
+                          for (std::size_t i = 0; i < k_packet; ++i) {
+                            const bool is_asked = at + i < points.size() && points[at + i].w > 0.0f;
+                            valid[i] = is_asked ? -1 : 0;
+                            if (!is_asked) continue;
+                            rays.org_x[i] = light.x;
+                            rays.org_y[i] = light.y;
+                            rays.org_z[i] = light.z;
+                            rays.dir_x[i] = points[at + i].x;
+                            rays.dir_y[i] = points[at + i].y;
+                            rays.dir_z[i] = points[at + i].z;
+                            rays.tfar[i] = 0.9999f;  // before the surface itself
+                            rays.mask[i] = ~0u;
+                          }
+                          rtcOccluded8(valid, scene_, &context, &rays);
+                        }
+                      };
+                    },
+                    {});
   }
 
   double build_ms = 0.0;

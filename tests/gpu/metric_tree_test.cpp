@@ -112,26 +112,15 @@ TEST_P(MetricTrees, AnswerWhatAskingEveryTriangleDoes) {
 }
 
 TEST_P(MetricTrees, AreAlikeHoweverTrianglesAreWritten) {
-  scene::Geometry other = given().geometry;
-  for (std::size_t i = 0; i < other.triangles.size(); ++i) {
-    glm::uvec3& t = other.triangles[i];
-    t = i % 3 == 0 ? t : i % 3 == 1 ? glm::uvec3(t.y, t.z, t.x) : glm::uvec3(t.z, t.x, t.y);
-  }
-  std::shuffle(other.triangles.begin(), other.triangles.end(), std::mt19937(7));
+  const scene::Geometry other = tests::rewritten(given().geometry);
   EXPECT_TRUE(by_usual(other, given().view) == by_brute(other, given().view)) << given().name;
 }
 
 TEST_P(MetricTrees, DoNotDependOnScale) {
   for (const float scale : {1024.0f, 1.0f / 1024.0f}) {
-    scene::Geometry geometry = given().geometry;
-    for (glm::vec3& position : geometry.positions) position *= scale;
-    scene::View view = given().view;
-    view.camera.eye *= static_cast<double>(scale);
-    view.camera.target *= static_cast<double>(scale);
-    view.lights[0].position *= static_cast<double>(scale);
-    view.lights[0].intensity *= scale * scale;  // else it would not reach the view
-    view.medium.sigma_s /= scale;
-    EXPECT_TRUE(by_usual(geometry, view) == by_brute(geometry, view)) << given().name << ", × " << scale;
+    const ShadowCase other = tests::scaled(given(), scale);
+    EXPECT_TRUE(by_usual(other.geometry, other.view) == by_brute(other.geometry, other.view))
+        << given().name << ", × " << scale;
   }
 }
 

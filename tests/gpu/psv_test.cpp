@@ -78,31 +78,15 @@ TEST_P(Psvs, AreRightWhereTheJudgeIsSure) {
 }
 
 TEST_P(Psvs, AreRightHoweverTrianglesAreWritten) {
-  scene::Geometry other = given().geometry;
-  for (std::size_t i = 0; i < other.triangles.size(); ++i) {
-    glm::uvec3& t = other.triangles[i];
-    t = i % 3 == 0 ? t : i % 3 == 1 ? glm::uvec3(t.y, t.z, t.x) : glm::uvec3(t.z, t.x, t.y);
-  }
-  const auto shuffle = [](auto& triangles) {
-    std::shuffle(triangles.begin(), triangles.end(), std::mt19937(7));
-  };
-  shuffle(other.triangles);
-  shuffle(other.material_of_triangle);
+  const scene::Geometry other = tests::rewritten(given().geometry);
   EXPECT_EQ(count_wrong(other, given().view, by_psv(other, given().view, {})), 0u) << given().name;
 }
 
 TEST_P(Psvs, DoNotDependOnScale) {
   const std::vector<float> expected = by_psv(given().geometry, given().view, {});
   for (const float scale : {1024.0f, 1.0f / 1024.0f}) {
-    scene::Geometry geometry = given().geometry;
-    for (glm::vec3& position : geometry.positions) position *= scale;
-    scene::View view = given().view;
-    view.camera.eye *= static_cast<double>(scale);
-    view.camera.target *= static_cast<double>(scale);
-    view.lights[0].position *= static_cast<double>(scale);
-    view.lights[0].intensity *= scale * scale;  // else it would not reach the view
-    view.medium.sigma_s /= scale;
-    EXPECT_TRUE(by_psv(geometry, view, {}) == expected) << given().name << ", × " << scale;
+    const ShadowCase other = tests::scaled(given(), scale);
+    EXPECT_TRUE(by_psv(other.geometry, other.view, {}) == expected) << given().name << ", × " << scale;
   }
 }
 

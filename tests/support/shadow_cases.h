@@ -96,6 +96,31 @@ inline const std::vector<ShadowCase>& shadow_cases() {
   return all;
 }
 
+/// The same triangles in another order, each from another corner on.
+inline scene::Geometry rewritten(scene::Geometry geometry) {
+  for (std::size_t i = 0; i < geometry.triangles.size(); ++i) {
+    glm::uvec3& t = geometry.triangles[i];
+    t = i % 3 == 0 ? t : i % 3 == 1 ? glm::uvec3(t.y, t.z, t.x) : glm::uvec3(t.z, t.x, t.y);
+  }
+  const auto shuffle = [](auto& of_triangles) {
+    std::shuffle(of_triangles.begin(), of_triangles.end(), std::mt19937(7));
+  };
+  shuffle(geometry.triangles);
+  shuffle(geometry.material_of_triangle);
+  return geometry;
+}
+
+/// All of it larger or smaller, in fog as much thinner or thicker.
+inline ShadowCase scaled(ShadowCase given, float scale) {
+  for (glm::vec3& position : given.geometry.positions) position *= scale;
+  given.view.camera.eye *= static_cast<double>(scale);
+  given.view.camera.target *= static_cast<double>(scale);
+  given.view.lights[0].position *= static_cast<double>(scale);
+  given.view.lights[0].intensity *= scale * scale;  // else it would not reach the view
+  given.view.medium.sigma_s /= scale;
+  return given;
+}
+
 /// A closed mesh around the light: an icosahedron whose faces are cut in four, twice, so that most edges and
 /// vertices are inside of a face. Its corners are on no axis.
 inline scene::Geometry ball() {

@@ -3,22 +3,23 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <functional>
 #include <mutex>
 #include <thread>
 #include <vector>
 
-#include "reference/reference.h"
+namespace airlight::scene {
 
-namespace airlight::reference {
+using Progress = std::function<void(double fraction)>;  ///< called from the calling thread only
 
-/// Works on the parts of an image on every core, and returns when all are done.
+/// Works on the parts of a whole on every core, and returns when all are done.
 ///
 /// @param make_worker called once on each thread; returns the callable `void(int part)` that this thread
 /// applies to its parts, with whatever scratch memory it keeps
 /// @param progress told the fraction of parts done, on the calling thread only, which works too
 /// The first exception of any thread ends the work and is rethrown.
 template <class MakeWorker>
-void parallel(int parts, const MakeWorker& make_worker, const Progress& progress) {
+void parallel(int parts, const MakeWorker& make_worker, const Progress& progress = {}) {
   std::atomic<int> next_part{0};
   std::atomic<int> parts_done{0};
   std::exception_ptr error;
@@ -50,4 +51,4 @@ void parallel(int parts, const MakeWorker& make_worker, const Progress& progress
   if (progress) progress(1.0);
 }
 
-}  // namespace airlight::reference
+}  // namespace airlight::scene
