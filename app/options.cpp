@@ -20,6 +20,7 @@
 #include "scene/import.h"
 #include "scene/numbers.h"
 #include "scene/shot.h"
+#include "scene/transmission.h"
 
 namespace airlight::app {
 namespace {
@@ -63,6 +64,14 @@ scene::Looks looks(const Options& options) {
   const std::string text = options.get("looks").value_or(
       options.command == "render" || options.command == "view" ? "textured" : "flat");
   return static_cast<scene::Looks>(frame::parse_word("--looks", text, {{"flat"}, {"textured"}}));
+}
+
+/// What light passes.
+scene::Transmission transmission(const Options& options) {
+  frame::Words words;
+  for (const std::string_view name : scene::transmission_names()) words.push_back({name});
+  return static_cast<scene::Transmission>(
+      frame::parse_word("--occluders", options.get("occluders").value_or("material"), words));
 }
 
 scene::Scene load_scene(const Options& options) {
@@ -141,6 +150,9 @@ std::span<const OptionLine> common_options() {
          "triangles, or the textures of base colours, what masks cut out, and shading "
          "normals; but for cut-outs, shadows and airlight are the same (default: textured "
          "in render and view, else flat)"}};
+    lines.push_back({"occluders", "material|opaque|x-ray|x-ray-coloured",
+                     "what light passes: what the materials let through, nothing, or every triangle by a "
+                     "share that falls with the angle of incidence (default: material)"});
     for (const scene::FieldInfo* field : scene::every_field())
       lines.push_back({field->name, field->placeholder, field->help()});
     lines.push_back(
@@ -168,7 +180,9 @@ std::string Options::command_line(std::span<const std::string> without) const {
 Subject make_subject(const Options& options) {
   // What is wrong with the words is said before a long file is read.
   const ViewChoices choices = read_choices(options);
+  const scene::Transmission passes = transmission(options);
   Subject subject{load_scene(options), {}, {}, {}};
+  subject.scene.geometry.transmission = passes;
   choose_all(choices.of_view, choices.of_lights, subject.scene);
   if (subject.scene.lights.empty())
     throw usage(options.scene, "it has no light",
@@ -225,6 +239,19 @@ void require_read(const Options& options, std::span<const quality::VolumeChoice>
   std::vector<std::string> given;
   for (const auto& option : options.given) given.push_back(option.first);
   quality::require_read(given, volumes, surfaces);
+}
+
+void show_transmission(const Options& options, const Subject& subject,
+                       std::vector<quality::VolumeChoice>& volumes,
+                       std::vector<quality::SurfaceChoice>& surfaces) {
+  if (!scene::transmits(subject.scene.geometry)) return;
+  // Few rays, since each step asks a tree.
+  if (!options.get("volume"))
+    volumes = parse_volumes(options, scene::transmits_by_incidence(subject.scene.geometry)
+                                         ? "none"
+                                         : "tree-march:where=epipolar:steps=64");
+  if (!options.get("surface")) surfaces = quality::parse_surfaces("psv", common_method_options(options));
+  require_read(options, volumes, surfaces);
 }
 
 void fit_to_view(std::vector<quality::VolumeChoice>& volumes, std::vector<quality::SurfaceChoice>& surfaces,

@@ -73,6 +73,12 @@ std::vector<quality::CommonOption> common_method_options(const Options& options)
 std::vector<quality::VolumeChoice> parse_volumes(const Options& options, std::string_view usual);
 std::vector<quality::SurfaceChoice> parse_surfaces(const Options& options);
 
+/// Where light passes triangles, takes methods that show it for those that the user did not choose.
+/// @throws scene::Error (usage) as require_read
+void show_transmission(const Options& options, const Subject& subject,
+                       std::vector<quality::VolumeChoice>& volumes,
+                       std::vector<quality::SurfaceChoice>& surfaces);
+
 /// @throws scene::Error (usage) for an option given that is meant for methods and that none of these reads
 void require_read(const Options& options, std::span<const quality::VolumeChoice> volumes,
                   std::span<const quality::SurfaceChoice> surfaces);

@@ -71,7 +71,7 @@ struct Images {
         .tone_map = subject.scene.tone_map,
         .renderer = renderer,
         .command = fmt::format("{} -o {}", options.command_line({}), quality::shell_quote(options.output))};
-    for (const char* name : {"albedo", "looks", "triangles"})
+    for (const char* name : {"albedo", "looks", "occluders", "triangles"})
       if (const auto text = options.get(name)) making.model_options[name] = *text;
     return quality::metadata_of(making, view);
   }
@@ -126,6 +126,7 @@ void render(const Options& options) {
   if (surfaces.size() != 1)
     throw Error(ExitCode::usage, "--surface", "render takes one method", "compare takes several");
   Subject subject = make_subject(options);
+  show_transmission(options, subject, volumes, surfaces);
   fit_to_view(volumes, surfaces, subject);
   const quality::VolumeChoice& volume = volumes[0];
   const quality::SurfaceChoice& surface = surfaces[0];

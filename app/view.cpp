@@ -31,6 +31,7 @@ void view(const Options& options) {
   require_gpu(surfaces[0], "--surface");
   Subject subject = make_subject(options);
   if (!options.get("size")) subject.view.size = {1280, 720};
+  show_transmission(options, subject, volumes, surfaces);
   viewer::Shown shown{subject.view, volumes[0],       surfaces[0],
                       shadow_map,   subject.exposure, subject.scene.tone_map};
   fit_to_view(volumes, surfaces, subject);
@@ -44,10 +45,10 @@ void view(const Options& options) {
 
   viewer::Window window(fmt::format("{} - Airlight", options.scene), subject.view.size);
   gpu::Context context = gpu::Context::adopt_current();
-  viewer::Viewer viewer(
-      context, subject.scene,
-      {options.scene, options.get("triangles"), options.get("albedo"), options.get("looks")}, shown,
-      subject.path, output_folder(options));
+  viewer::Viewer viewer(context, subject.scene,
+                        {options.scene, options.get("triangles"), options.get("albedo"), options.get("looks"),
+                         options.get("occluders")},
+                        shown, subject.path, output_folder(options));
   while (!viewer.is_closed()) {
     window.wait(viewer.patience());
     for (const viewer::Event& event : window.events().take_all()) viewer.push(event);

@@ -67,20 +67,24 @@ std::vector<float> read_distance(const gpu::Texture& surfaces) {
   return distance;
 }
 
-/// 0 where no surface is seen.
-std::vector<float> read_visibility(const gpu::Texture& texture, const std::vector<float>& distance) {
-  std::vector<float> visibility;
-  visibility.reserve(distance.size());
-  const auto add = [&](std::size_t pixel, float value) {
-    visibility.push_back(distance[pixel] == 0.0f ? 0.0f : value);
-  };
-  if (texture.format() == gpu::Format::r32f)
-    read_pixels<float>(texture, add);
-  else
-    read_pixels<glm::vec4>(texture, [&](std::size_t pixel, const glm::vec4& rgba) {
-      add(pixel, (rgba.r + rgba.g + rgba.b) / 3.0f);
+/// Of one light; 0 where no surface is seen.
+void read_visibility(const gpu::Texture& texture, FrameImages& images) {
+  std::vector<float>& visibility = images.visibility.emplace_back();
+  visibility.reserve(images.distance.size());
+  const auto is_surface = [&](std::size_t pixel) { return images.distance[pixel] != 0.0f; };
+  if (texture.format() == gpu::Format::r32f) {
+    read_pixels<float>(texture, [&](std::size_t pixel, float value) {
+      visibility.push_back(is_surface(pixel) ? value : 0.0f);
     });
-  return visibility;
+    return;
+  }
+  std::vector<glm::vec3>& transmittance = images.transmittance.emplace_back();
+  transmittance.reserve(images.distance.size());
+  read_pixels<glm::vec4>(texture, [&](std::size_t pixel, const glm::vec4& rgba) {
+    const glm::vec3 share = is_surface(pixel) ? glm::vec3(rgba) : glm::vec3(0.0f);
+    transmittance.push_back(share);
+    visibility.push_back((share.r + share.g + share.b) / 3.0f);
+  });
 }
 
 /// The length that single precision around the eye is relative to: how far it is to the light, or as far as
@@ -138,7 +142,7 @@ void Frame::require_images(const scene::View& view, gpu::Format visibility_forma
 void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airlight& airlight,
                    gpu::StageTimer& timer, Resting resting) {
   scene::validate(view);
-  require_images(view, surface_shadow.visibility_format());
+  require_images(view, surface_shadow.visibility_format(resources_.scene()));
   resources_.begin_frame(resting);
   const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
   const SceneBuffers& scene = resources_.scene();
@@ -247,11 +251,12 @@ void Frame::composite(std::size_t light, bool adds) {
   const bool is_textured = light_texture != nullptr;
   const Looks* looks = resources_.scene().looks();
   const bool has_textures = looks && looks->has_textures(), has_normals = looks && looks->has_normals();
-  auto& pass = composite_[{is_textured, adds}];
+  const bool glows = visibility_[light].format() != gpu::Format::r32f;
+  auto& pass = composite_[{is_textured, adds, glows}];
   if (!pass) {
     pass.emplace(k_composite_frag,
                  std::array{gpu::Constant(0, is_textured), gpu::Constant(1, has_textures),
-                            gpu::Constant(2, has_normals)},
+                            gpu::Constant(2, has_normals), gpu::Constant(3, glows)},
                  adds ? gpu::Blend::add : gpu::Blend::replace);
   }
   resources_.scene().bind_samplers();
@@ -286,8 +291,7 @@ FrameImages Frame::read() const {
   for (const gpu::Texture& texture : airlight_of_light_)
     images.airlight_of_light.push_back(read_rgb(texture, "airlight"));
   images.distance = read_distance(gbuffer_->surfaces());
-  for (const gpu::Texture& texture : visibility_)
-    images.visibility.push_back(read_visibility(texture, images.distance));
+  for (const gpu::Texture& texture : visibility_) read_visibility(texture, images);
   context_.check();
   return images;
 }
@@ -315,7 +319,7 @@ FrameImages Frame::take() {
     texture = {};
   }
   for (gpu::Texture& texture : visibility_) {
-    images.visibility.push_back(read_visibility(texture, images.distance));
+    read_visibility(texture, images);
     texture = {};
   }
   images.radiance = read_rgb(radiance_, "radiance");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -33,6 +34,8 @@ struct FrameImages {
   /// where no surface is seen; the mean over RGB where occluders let colours through. 0 of a light that was
   /// skipped.
   std::vector<std::vector<float>> visibility;
+  /// Where occluders let colours through, of each light the same by channels; else empty.
+  std::vector<std::vector<glm::vec3>> transmittance;
   std::vector<float> distance;  ///< along the view ray [m], 0 where no surface is seen
 };
 
@@ -85,8 +88,8 @@ class Frame {
   gpu::Context& context_;
   Resources resources_;
   gpu::Buffer camera_block_, light_block_, medium_block_;
-  std::map<std::pair<bool, bool>, std::optional<ScreenPass>>
-      composite_;  ///< by: the light is textured, it adds to others
+  /// By: the light is textured, it adds to others, surfaces glow with what they let through.
+  std::map<std::array<bool, 3>, std::optional<ScreenPass>> composite_;
   std::optional<ScreenPass> surroundings_;
   LookImages look_images_;  ///< where the scene has looks
 

@@ -21,6 +21,7 @@ struct Traits {
   bool is_none = false;       ///< leaves out what the others compute
   bool is_truth = false;      ///< what others are judged by, or what goes over into it with more samples
   bool is_exact = false;      ///< right up to rounding, at any resolution
+  bool transmits = false;     ///< shows what light passes; else all triangles are opaque to it
   bool is_yardstick = false;  ///< others' times are given as parts of its
 
   /// Whether an error is asked of it.

@@ -65,8 +65,10 @@ class SurfaceShadow {
  public:
   virtual ~SurfaceShadow() = default;
 
-  /// Of the image that `query` writes: r32f, or rgba32f of a method whose occluders let colours through.
-  virtual gpu::Format visibility_format() const { return gpu::Format::r32f; }
+  /// Of the image that `query` writes: r32f, or rgba32f of a method whose occluders let colours through. Such
+  /// a method then also says what a transparent surface lets through that is seen from the side away from
+  /// the light: it glows.
+  virtual gpu::Format visibility_format(const SceneBuffers&) const { return gpu::Format::r32f; }
 
   /// Writes the part of the light that arrives at each surface: 1 where it sees the light, 0 where it does
   /// not. Times its stages, `surface_query` among them.

@@ -7,6 +7,8 @@
 
 #include <epoxy/gl.h>
 
+#include "scene/transmission.h"
+
 namespace airlight::frame {
 namespace {
 
@@ -59,6 +61,16 @@ SceneBuffers::SceneBuffers(const gpu::Context& context, const scene::Geometry& g
       for (int corner = 0; corner < 3; ++corner)
         positions.push_back(geometry.positions[triangles[i][corner]]);
     cut_out_positions_ = upload(positions);
+  }
+  if (scene::transmits(geometry)) {
+    std::vector<glm::uvec4> attenuations;
+    attenuations.reserve(triangle_count());
+    for (const std::uint32_t triangle : clusters_.order) {
+      const scene::Attenuation attenuation = scene::attenuation_of(geometry, triangle);
+      attenuations.emplace_back(attenuation.of_channel, attenuation.grows_by_incidence);
+    }
+    attenuations_ = upload(attenuations);
+    attenuation_texels_ = {context.limits(), attenuations_, gpu::Format::rgba32ui, "the model's triangles"};
   }
   make_vertex_arrays();
 }
@@ -171,7 +183,7 @@ std::vector<std::uint32_t> SceneBuffers::triangles_at(glm::dvec3 apex, double ey
 
 std::int64_t SceneBuffers::bytes() const {
   return positions_.bytes() + triangles_.bytes() + albedos_.bytes() + material_of_triangle_.bytes() +
-         cut_out_positions_.bytes() + (looks_ ? looks_->bytes() : 0);
+         cut_out_positions_.bytes() + attenuations_.bytes() + (looks_ ? looks_->bytes() : 0);
 }
 
 }  // namespace airlight::frame

@@ -35,6 +35,13 @@ class SceneBuffers {
   /// Binds positions, triangles, albedos and materials (shaders/bindings.glsl).
   void bind_samplers() const;
 
+  /// Whether light passes any triangle (scene::transmits).
+  bool transmits() const { return attenuation_texels_.has_value(); }
+
+  /// Where light passes any: rgba32ui, one texel a triangle: Attenuation::of_channel, and whether it grows by
+  /// incidence.
+  const gpu::TexelView& attenuations() const { return *attenuation_texels_; }
+
   /// Draws what may lie in the pyramid. Vertex attributes: 0 = world position, 1 = first triangle of the
   /// draw.
   /// @param left_out triangle numbers, sorted
@@ -83,6 +90,8 @@ class SceneBuffers {
   gpu::Buffer positions_, triangles_, albedos_, material_of_triangle_, first_triangles_;
   gpu::TexelView position_texels_, triangle_texels_, albedo_texels_, material_texels_;
   gpu::Buffer cut_out_positions_;  ///< three a triangle
+  gpu::Buffer attenuations_;       ///< where light passes any triangle
+  std::optional<gpu::TexelView> attenuation_texels_;
   gpu::Handle<gpu::delete_vertex_array> vertex_array_, cut_out_vertex_array_;
   std::optional<Looks> looks_;
 };

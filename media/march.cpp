@@ -3,20 +3,54 @@
 #include <bit>
 #include <cassert>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "spirv/media/march_frag.h"
 #include "spirv/media/march_gather_frag.h"
 #include "spirv/media/march_rows_frag.h"
+#include "spirv/media/tree_march_metric_tree_frag.h"
+#include "spirv/media/tree_march_psv_frag.h"
 
 namespace airlight::media {
 March::March(const gpu::Context& context, const MarchOptions& options)
     : options_(options), space_(sizeof(shaders::EpipolarBlock)) {
+  if (options.look_up == MarchLookUp::psv) tree_.emplace<surface_shadows::Psv>(surface_shadows::PsvOptions{});
+  if (options.look_up == MarchLookUp::metric_tree)
+    tree_.emplace<surface_shadows::MetricTree>(surface_shadows::MetricTreeOptions{});
   if (options.look_up == MarchLookUp::rows) rows_.emplace(context.limits(), options.volume);
   if (options.jitter == MarchJitter::gathered) gather_.emplace(k_march_gather_frag);
 }
 
-const frame::ScreenPass& March::load(const Variant& variant) {
+namespace {
+
+/// Calls f with the tree, where there is one.
+template <typename Tree, typename Function>
+void with_tree(Tree& tree, const Function& f) {
+  std::visit(
+      [&](auto& held) {
+        if constexpr (!std::is_same_v<std::remove_cvref_t<decltype(held)>, std::monostate>) f(held);
+      },
+      tree);
+}
+
+std::span<const std::uint32_t> fragment_of(MarchLookUp look_up) {
+  switch (look_up) {
+    case MarchLookUp::map:
+      return k_march_frag;
+    case MarchLookUp::rows:
+      return k_march_rows_frag;
+    case MarchLookUp::psv:
+      return k_tree_march_psv_frag;
+    case MarchLookUp::metric_tree:
+      return k_tree_march_metric_tree_frag;
+  }
+  return {};
+}
+
+}  // namespace
+
+const frame::ScreenPass& March::load(const Variant& variant, const frame::SceneBuffers& scene) {
   if (const auto found = passes_.find(variant); found != passes_.end()) return found->second;
   const bool by_angle = options_.spacing == MarchSpacing::angle;
   const auto jitter = static_cast<std::uint32_t>(options_.jitter);
@@ -33,12 +67,14 @@ const frame::ScreenPass& March::load(const Variant& variant) {
       constants.push_back(count);
     constants.emplace_back(11, true);  // some view rays may look away from the light
     constants.emplace_back(17, static_cast<std::uint32_t>(epipolar::Query::light_rays));
-  } else {
+  } else if (!options_.asks_tree()) {
     constants.emplace_back(16, variant.plane);
   }
-  const std::span<const std::uint32_t> fragment =
-      rows_ ? std::span<const std::uint32_t>(k_march_rows_frag) : k_march_frag;
-  return passes_.emplace(variant, frame::ray_pass(options_.rays, fragment, constants)).first->second;
+  with_tree(tree_, [&](const auto& tree) {
+    for (const gpu::Constant& constant : tree.walk_constants(scene)) constants.push_back(constant);
+  });
+  return passes_.emplace(variant, frame::ray_pass(options_.rays, fragment_of(options_.look_up), constants))
+      .first->second;
 }
 
 std::optional<frame::Refusal> MarchOptions::refusal(const scene::View& view) const {
@@ -62,7 +98,9 @@ void March::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radi
                                         .light_textured = light_texture != nullptr,
                                         .plane = inputs.shadow_map_is_plane(),
                                         .rough = !is_sun && is_rough(inputs, layer),
-                                        .sun = is_sun});
+                                        .sun = is_sun,
+                                        .transmits = options_.asks_tree() && inputs.scene.transmits()},
+                                       inputs.scene);
   const scene::Box& box = inputs.scene.box();
   const double reach = !box.empty() ? scene::reach_from(view.camera.eye, box)
                        : is_sun     ? 1.0
@@ -76,7 +114,11 @@ void March::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radi
     const shaders::EpipolarBlock block = gridless_space(view, light);
     space_.write(&block, sizeof block);
     space_.bind_uniform(shaders::k_space_block);
-    inputs.shadow_map(0.0).bind_sampler(shaders::k_shadow_map_unit);
+    if (!options_.asks_tree()) inputs.shadow_map(0.0).bind_sampler(shaders::k_shadow_map_unit);
+    with_tree(tree_, [&](auto& tree) {
+      tree.build(inputs);
+      tree.bind_walk(inputs, pass.pipeline());
+    });
   }
   if (gather_ && scattered_.size() != radiance.size())
     scattered_ = gpu::Texture(radiance.format(), radiance.size());
@@ -93,6 +135,7 @@ void March::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radi
 std::map<std::string, std::int64_t> March::bytes() const {
   std::map<std::string, std::int64_t> bytes;
   if (rows_) bytes = rows_->bytes();
+  with_tree(tree_, [&](const auto& tree) { bytes = tree.bytes(); });
   if (gather_) bytes["scattered"] = scattered_.bytes();
   return bytes;
 }
@@ -101,8 +144,13 @@ std::map<std::string, double> March::counters(const frame::FrameInputs& inputs) 
   return {{"look_ups", options_.steps * inputs.ray_count()}};
 }
 
-frame::AirlightMethod march_method() {
-  std::vector<frame::Option> options = {
+namespace {
+
+constexpr int k_first_tree = static_cast<int>(MarchLookUp::psv);
+
+/// How view rays are cut into steps, and where in these points are looked up.
+std::vector<frame::Option> step_options() {
+  return {
       frame::count_option({.name = "steps",
                            .meaning = "look-ups a view ray",
                            .quality = "too few show as bands across shafts",
@@ -126,28 +174,62 @@ frame::AirlightMethod march_method() {
           {{"off", "in the middle"},
            {"interleaved", "elsewhere for each of 4 x 4 pixels"},
            {"gathered", "so, and then the mean of such pixels of one surface"}},
-          &MarchOptions::jitter),
-      frame::word_option(
-          {.name = "look-up",
-           .meaning = "what is looked up",
-           .quality = "rows are as exact as their light rays are dense",
-           .cost = "rows are made once, and neighbours in them are neighbours in memory",
-           .sweep = {"map", "rows"}},
-          {{"map", "the shadow map"},
-           {"rows", "light rays of each half-plane, resampled from it: theta half-planes, phi rays"}},
-          &MarchOptions::look_up)};
+          &MarchOptions::jitter)};
+}
+
+frame::AirlightMethod method_of(std::string_view name, std::string_view description,
+                                const frame::Traits& traits, std::vector<frame::Option> options,
+                                const MarchOptions& defaults) {
+  for (frame::Option& option : frame::options_of(&MarchOptions::rays, frame::view_rays_options()))
+    options.push_back(std::move(option));
+  frame::AirlightMethod method = frame::describe<frame::Airlight, MarchOptions>(
+      name, description, traits, std::move(options),
+      [](const gpu::Context& context, const MarchOptions& march) {
+        return std::make_unique<March>(context, march);
+      });
+  method.defaults = defaults;
+  return method;
+}
+
+}  // namespace
+
+frame::AirlightMethod march_method() {
+  std::vector<frame::Option> options = step_options();
+  options.push_back(frame::word_option(
+      {.name = "look-up",
+       .meaning = "what is looked up",
+       .quality = "rows are as exact as their light rays are dense",
+       .cost = "rows are made once, and neighbours in them are neighbours in memory",
+       .sweep = {"map", "rows"}},
+      {{"map", "the shadow map"},
+       {"rows", "light rays of each half-plane, resampled from it: theta half-planes, phi rays"}},
+      &MarchOptions::look_up));
   for (frame::Option& option : frame::options_of(&MarchOptions::volume, epipolar::volume_options())) {
     if (option.text.name != "theta" && option.text.name != "phi") continue;
     option.text.is_common = false;  // of rows alone
     options.push_back(std::move(option));
   }
-  for (frame::Option& option : frame::options_of(&MarchOptions::rays, frame::view_rays_options()))
-    options.push_back(std::move(option));
-  return frame::describe<frame::Airlight, MarchOptions>(
-      "march", "look-ups of the shadow map, or of its rows, along each view ray", {}, std::move(options),
-      [](const gpu::Context& context, const MarchOptions& march) {
-        return std::make_unique<March>(context, march);
-      });
+  return method_of("march", "look-ups of the shadow map, or of its rows, along each view ray", {},
+                   std::move(options), {});
+}
+
+frame::AirlightMethod tree_march_method() {
+  std::vector<frame::Option> options = step_options();
+  options.push_back(frame::word_option<MarchOptions, MarchLookUp>(
+      {.name = "tree",
+       .meaning = "which tree is asked",
+       .quality = "none",
+       .cost = "a tree is made each frame, and asked at every step",
+       .sweep = {"psv", "metric-tree"}},
+      {{"psv", "partitioned shadow volumes"}, {"metric-tree", "clusters of triangles in a metric tree"}},
+      [](const MarchOptions& march) {
+        return static_cast<MarchLookUp>(static_cast<int>(march.look_up) - k_first_tree);
+      },
+      [](MarchOptions& march, MarchLookUp tree) {
+        march.look_up = static_cast<MarchLookUp>(static_cast<int>(tree) + k_first_tree);
+      }));
+  return method_of("tree-march", "a tree of triangles asked along each view ray: no voxels, no shadow map",
+                   {.transmits = true}, std::move(options), {.look_up = MarchLookUp::psv});
 }
 
 }  // namespace airlight::media

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "epipolar/volume.h"
 #include "frame/method.h"
@@ -12,6 +13,8 @@
 #include "gpu/buffer.h"
 #include "gpu/texture.h"
 #include "media/lighting.h"
+#include "surface_shadows/metric_tree.h"
+#include "surface_shadows/psv.h"
 
 namespace airlight::media {
 
@@ -30,8 +33,10 @@ enum class MarchJitter {
 
 /// What is looked up.
 enum class MarchLookUp {
-  map,   ///< the shadow map
-  rows,  ///< the first occluders of light rays in half-planes, to which the shadow map is resampled
+  map,          ///< the shadow map
+  rows,         ///< the first occluders of light rays in half-planes, to which the shadow map is resampled
+  psv,          ///< the tree of surface_shadows::Psv
+  metric_tree,  ///< that of surface_shadows::MetricTree
 };
 
 struct MarchOptions {
@@ -45,14 +50,17 @@ struct MarchOptions {
   /// @throws scene::Error (usage) where a volume cannot be of these counts.
   void validate() const { volume.validate(); }
   void fit(const scene::View& view) { volume.fit(view); }
-  bool needs_shadow_map() const { return true; }
+  bool asks_tree() const { return look_up == MarchLookUp::psv || look_up == MarchLookUp::metric_tree; }
+  bool needs_shadow_map() const { return !asks_tree(); }
+  bool ignores_cut_outs() const { return asks_tree(); }
   /// A phase function whose lobe is too narrow. And a mean over neighbours where rays are listed, which have
   /// none.
   std::optional<frame::Refusal> refusal(const scene::View& view) const;
 };
 
 /// `march`: airlight by look-ups of the shadow map along each view ray, or of its rows along the ray's
-/// half-plane.
+/// half-plane. `tree-march`: the same by asking a tree of triangles what lies between a point and the light,
+/// and how much of it that lets through.
 /// Based on: Tóth and Umenhoffer, "Real-time Volumetric Lighting in Participating Media", Eurographics 2009
 /// short papers, section 3. By angle: Kulla and Fajardo, "Importance Sampling Techniques for Path Tracing in
 /// Participating Media", EGSR 2012, section 4.1 (equi-angular sampling). Rows: the first step of Baran, Chen,
@@ -75,19 +83,22 @@ class March : public frame::Airlight {
   /// What the shader is specialised for.
   struct Variant {
     std::uint32_t phase, layer, reach;
-    bool light_textured, plane, rough, sun;
+    bool light_textured, plane, rough, sun, transmits;
     auto operator<=>(const Variant&) const = default;
   };
-  const frame::ScreenPass& load(const Variant& variant);
+  const frame::ScreenPass& load(const Variant& variant, const frame::SceneBuffers& scene);
 
   MarchOptions options_;
-  gpu::Buffer space_;                           ///< EpipolarBlock of look-ups of the map
-  std::optional<epipolar::ShadowVolume> rows_;  ///< or what is looked up instead
+  gpu::Buffer space_;  ///< EpipolarBlock of look-ups of the map
+  // Or what is looked up instead:
+  std::optional<epipolar::ShadowVolume> rows_;
+  std::variant<std::monostate, surface_shadows::Psv, surface_shadows::MetricTree> tree_;
   std::map<Variant, frame::ScreenPass> passes_;
   std::optional<frame::ScreenPass> gather_;
   gpu::Texture scattered_;  ///< of the size of the image, before it is gathered
 };
 
 frame::AirlightMethod march_method();
+frame::AirlightMethod tree_march_method();
 
 }  // namespace airlight::media

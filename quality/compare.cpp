@@ -78,11 +78,12 @@ void write_truth(const CompareRequest& request, const frame::FrameImages& images
 
 /// The previews of a run. @param ending of their names, before the format's
 void write_previews(const CompareRequest& request, const std::string& name, const std::string& ending,
-                    const frame::FrameImages& images, const Truth& truth, const Exposure& exposure) {
+                    const frame::FrameImages& images, const Truth& truth, const Truth& of_surfaces,
+                    const Exposure& exposure) {
   const auto file = [&](const char* kind) { return request.directory / (name + kind + ending + ".png"); };
   write_png(file(""), images.radiance, images.size, exposure.value, request.scene.tone_map);
   write_png(file("_error"), error_colours(images.airlight, truth.airlight), images.size, 1.0f);
-  write_png(file("_surface"), surface_colours(images, truth.verdicts), images.size, 1.0f);
+  write_png(file("_surface"), surface_colours(images, of_surfaces.verdicts), images.size, 1.0f);
 }
 
 std::vector<Run::DebugImage> write_debug_images(const CompareRequest& request, const Run& run,
@@ -157,10 +158,13 @@ Run judged_run(Measurer& measurer, std::span<const scene::View> views, bool is_p
   run.is_yardstick = volume.method->traits.is_yardstick;
   run.settings = volume.values();
   run.surface_settings = surface.values();
+  const auto judge_by = [&](const Truth& truth, const frame::FrameImages& images) {
+    return judge(images, truth.shown_by(volume.method->traits), truth.shown_by(surface.method->traits));
+  };
   if (!is_path) {
     const Measurer::Measurement measured = measurer.measure(volume, surface, frames);
     run.cost = measured.cost;
-    run.errors = judge(measured.images, truths[0]);
+    run.errors = judge_by(truths[0], measured.images);
     if (look) look(run, 0, measured.images);
     return run;
   }
@@ -168,8 +172,8 @@ Run judged_run(Measurer& measurer, std::span<const scene::View> views, bool is_p
   ErrorImage before;
   const Measurer::PathMeasurement measured = measurer.measure_path(
       volume, surface, views, frames, [&](std::size_t i, const frame::FrameImages& images) {
-        run.path[i].errors = judge(images, truths[i]);
-        ErrorImage error = error_image(images, truths[i]);
+        run.path[i].errors = judge_by(truths[i], images);
+        ErrorImage error = error_image(images, truths[i].shown_by(volume.method->traits));
         if (i > 0) run.path[i].flicker = flicker(before, error);
         before = std::move(error);
         if (look) look(run, i, images);
@@ -222,7 +226,8 @@ Comparison compare(gpu::Context& context, const CompareRequest& request) {
                                write_frame(request.directory / (judged.name + ".exr"), images,
                                            metadata_of(request, judged.volume, judged.surface, command));
                              write_previews(request, judged.name, request.path ? scene::frame_ending(i) : "",
-                                            images, truths[i], comparison.exposure);
+                                            images, truths[i].shown_by(volume.method->traits),
+                                            truths[i].shown_by(surface.method->traits), comparison.exposure);
                            });
       run.command = command;
       if (request.debug && !request.path)

@@ -14,7 +14,8 @@ struct Errors {
   SurfaceError surface{};           ///< summed over the lights that were not skipped
 };
 
-Errors judge(const frame::FrameImages& images, const Truth& truth);
+/// @param truth of the airlight, and that of the surfaces (Truth::shown_by)
+Errors judge(const frame::FrameImages& images, const Truth& truth, const Truth& of_surfaces);
 
 /// Of the airlight: see `flicker`.
 ErrorImage error_image(const frame::FrameImages& images, const Truth& truth);

@@ -12,6 +12,7 @@
 #include "scene/components.h"
 #include "scene/error.h"
 #include "scene/numbers.h"
+#include "scene/transmission.h"
 #include "surface_shadows/brute.h"
 #include "surface_shadows/metric_tree.h"
 #include "surface_shadows/psv.h"
@@ -25,9 +26,9 @@ using scene::split;
 
 std::span<const VolumeMethod> volume_methods() {
   static const std::vector<VolumeMethod> methods = {
-      frame::no_airlight_method(), media::vsv_method(), media::march_method(),
-      media::froxel_method(),      reference_method(),  reference_sampled_method(),
-      reference_march_method(),
+      frame::no_airlight_method(), media::vsv_method(),      media::march_method(),
+      media::tree_march_method(),  media::froxel_method(),   reference_method(),
+      reference_sampled_method(),  reference_march_method(),
   };
   return methods;
 }
@@ -327,6 +328,16 @@ std::string specs_with(std::span<const VolumeChoice> volumes, std::span<const Su
   return specs;
 }
 
+/// @throws Error (usage) where airlight is asked for of what no truth of airlight knows
+void require_airlight(std::span<const VolumeChoice> volumes, const scene::Geometry& geometry) {
+  if (!scene::transmits_by_incidence(geometry)) return;
+  for (const VolumeChoice& choice : volumes)
+    if (!choice.method->traits.is_none)
+      throw Error(ExitCode::usage, fmt::format("--volume {}", choice.spec),
+                  "what light passes by its angle of incidence is shown on surfaces alone",
+                  "ask for --volume none, or for --occluders material or opaque");
+}
+
 }  // namespace
 
 void warn_of_geometry(std::span<const VolumeChoice> volumes, std::span<const SurfaceChoice> surfaces,
@@ -338,6 +349,17 @@ void warn_of_geometry(std::span<const VolumeChoice> volumes, std::span<const Sur
     scene.report.warnings.push_back(fmt::format(
         "{} cannot show what materials cut out of their triangles: the shadows are those of whole "
         "triangles",
+        who));
+
+  require_airlight(volumes, scene.geometry);
+  if (const std::string who = specs_with(volumes, surfaces,
+                                         [](const auto& choice) {
+                                           const frame::Traits& traits = choice.method->traits;
+                                           return !traits.is_none && !traits.transmits;
+                                         });
+      !who.empty() && scene::transmits(scene.geometry))
+    scene.report.warnings.push_back(fmt::format(
+        "{} cannot show what light passes: all triangles are opaque there, and it is judged by such a truth",
         who));
 
   const std::string who = specs_with(volumes, surfaces, [](const auto& choice) {

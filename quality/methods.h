@@ -104,7 +104,8 @@ void require_read(std::span<const std::string> given, std::span<const VolumeChoi
                   std::span<const SurfaceChoice> surfaces);
 
 /// Adds a warning to the scene's report where a method takes its parts for solids and they are not closed,
-/// and where one takes triangles whole that are cut out.
+/// where one takes triangles whole that are cut out, and where one takes them for opaque that light passes.
+/// @throws scene::Error (usage) for airlight of an x-ray view (scene::Transmission)
 void warn_of_geometry(std::span<const VolumeChoice> volumes, std::span<const SurfaceChoice> surfaces,
                       scene::Scene& scene);
 

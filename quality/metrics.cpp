@@ -154,9 +154,12 @@ double flicker(const ErrorImage& before, const ErrorImage& after) {
   return std::sqrt(sum_squares / static_cast<double>(kept)) / (0.5 * (before.mean + after.mean));
 }
 
-SurfaceError surface_error(std::span<const float> visibility, const SurfaceVerdicts& verdicts) {
+namespace {
+
+/// @param image whether a pixel of it is wrong by `is_wrong`
+template <typename Pixel>
+SurfaceError surface_error_of(std::span<const Pixel> visibility, const SurfaceVerdicts& verdicts) {
   require_same_length(visibility.size(), verdicts.size());
-  require_finite(visibility, "visibility to judge");
   SurfaceError error{};
   for (std::size_t i = 0; i < visibility.size(); ++i) {
     if (!verdicts[i]) continue;
@@ -165,6 +168,19 @@ SurfaceError surface_error(std::span<const float> visibility, const SurfaceVerdi
     if (is_wrong(visibility[i], *verdicts[i])) ++error.wrong_pixels;
   }
   return error;
+}
+
+}  // namespace
+
+SurfaceError surface_error(std::span<const float> visibility, const SurfaceVerdicts& verdicts) {
+  require_finite(visibility, "visibility to judge");
+  return surface_error_of(visibility, verdicts);
+}
+
+SurfaceError surface_error(std::span<const glm::vec3> shares, const SurfaceVerdicts& verdicts) {
+  require_finite(std::span(shares.empty() ? nullptr : &shares[0].x, 3 * shares.size()),
+                 "visibility to judge");
+  return surface_error_of(shares, verdicts);
 }
 
 }  // namespace airlight::quality

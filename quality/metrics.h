@@ -95,6 +95,17 @@ inline bool is_lit(float visibility) {
   return visibility >= 0.5f;
 }
 
+/// How far what an image says of a share of light may be from the verdict's. Panes that let more than this
+/// less than all through are told from none; what sums in fixed point and the angle of incidence are rounded
+/// by is a thousandth of it for each of them.
+constexpr float k_share_error = 1e-3f;
+
+/// The same of what arrives of the light, RGB.
+inline bool is_wrong(const glm::vec3& share, const reference::SurfaceVerdict& verdict) {
+  const glm::vec3 error = glm::abs(share - verdict.share);
+  return verdict.is_decided && std::max({error.r, error.g, error.b}) > k_share_error;
+}
+
 /// Whether a decided verdict contradicts an image.
 inline bool is_wrong(float visibility, const reference::SurfaceVerdict& verdict) {
   return verdict.is_decided && is_lit(visibility) != (verdict.verdict == reference::Verdict::lit);
@@ -103,5 +114,6 @@ inline bool is_wrong(float visibility, const reference::SurfaceVerdict& verdict)
 /// @param visibility, verdicts one a pixel
 /// @throws scene::Error (bad_file) when a value is NaN or infinite, or the lengths differ
 SurfaceError surface_error(std::span<const float> visibility, const SurfaceVerdicts& verdicts);
+SurfaceError surface_error(std::span<const glm::vec3> shares, const SurfaceVerdicts& verdicts);
 
 }  // namespace airlight::quality

@@ -53,7 +53,10 @@ void write_frame(const std::filesystem::path& file, const frame::FrameImages& im
   for (std::size_t light = 0; light < images.airlight_of_light.size(); ++light) {
     add(fmt::format("airlight.{}.", images.lights[light]), images.airlight_of_light[light]);
     view.channels[fmt::format("surface.{}.Y", images.lights[light])] = {images.visibility[light].data(), 1};
+    if (!images.transmittance.empty())
+      add(fmt::format("surface.{}.", images.lights[light]), images.transmittance[light]);
   }
+  if (images.transmittance.size() == 1) add("surface.", images.transmittance[0]);
   std::vector<float> mean;
   if (images.visibility.size() > 1) {
     mean.resize(images.distance.size());
@@ -125,21 +128,23 @@ std::vector<glm::vec3> surface_colours(const frame::FrameImages& images,
   const glm::vec3 red(1.0f, 0.0f, 0.0f), yellow(1.0f, 0.75f, 0.0f);
   std::vector<glm::vec3> colours(images.distance.size(), glm::vec3(0.0f));
   for (std::size_t i = 0; i < colours.size(); ++i) {
-    float sum = 0.0f;
+    glm::vec3 sum(0.0f);
     int lights = 0;
     bool any_wrong = false, any_undecided = false;
     for (std::size_t light = 0; light < verdicts.size(); ++light) {
       const auto& verdict = verdicts[light][i];
       if (images.is_skipped[light] || !verdict) continue;
+      const bool is_coloured = !images.transmittance.empty();
       const float visibility = images.visibility[light][i];
-      sum += visibility;
+      sum += is_coloured ? images.transmittance[light][i] : glm::vec3(visibility);
       ++lights;
-      any_wrong = any_wrong || is_wrong(visibility, *verdict);
+      any_wrong = any_wrong || (is_coloured ? is_wrong(images.transmittance[light][i], *verdict)
+                                            : is_wrong(visibility, *verdict));
       any_undecided = any_undecided || !verdict->is_decided;
     }
     if (lights == 0) continue;
-    const float grey = glm::mix(k_shadow, k_lit, sum / static_cast<float>(lights));
-    colours[i] = any_wrong ? red : any_undecided ? yellow : glm::vec3(grey);
+    const glm::vec3 arriving = k_shadow + (k_lit - k_shadow) * sum / static_cast<float>(lights);
+    colours[i] = any_wrong ? red : any_undecided ? yellow : arriving;
   }
   return colours;
 }

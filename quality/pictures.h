@@ -34,8 +34,9 @@ struct Making {
 std::map<std::string, std::string> metadata_of(const Making& making, const scene::View& view);
 
 /// Writes a frame as an EXR image with the channels R,G,B; airlight.R,G,B; surface.Y, the mean over lights;
-/// distance.Y. Where there are several lights, each has its airlight.NAME.R,G,B and surface.NAME.Y, too;
-/// those skipped are named in the metadata.
+/// distance.Y; of a method that shows what light passes also surface.R,G,B. Where there are several lights,
+/// each has its airlight.NAME.R,G,B and surface.NAME.Y, or surface.NAME.R,G,B, too; those skipped are named
+/// in the metadata.
 /// @throws as write_exr
 void write_frame(const std::filesystem::path& file, const frame::FrameImages& images,
                  std::map<std::string, std::string> metadata);

@@ -29,7 +29,9 @@ class ShadowProbe : public frame::SurfaceShadow {
  public:
   using Look = AirlightProbe::Look;
   ShadowProbe(frame::SurfaceShadow& shadow, Look look) : shadow_(shadow), look_(std::move(look)) {}
-  gpu::Format visibility_format() const override { return shadow_.visibility_format(); }
+  gpu::Format visibility_format(const frame::SceneBuffers& scene) const override {
+    return shadow_.visibility_format(scene);
+  }
   void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override {
     shadow_.query(inputs, visibility);
     look_(inputs);

@@ -8,6 +8,7 @@
 #include "frame/point_reader.h"
 #include "reference/surface_judge.h"
 #include "scene/error.h"
+#include "scene/transmission.h"
 
 namespace airlight::quality {
 namespace {
@@ -82,20 +83,32 @@ std::unique_ptr<frame::Airlight> make_traced(const gpu::Context&, const Options&
 class JudgedShadow : public frame::SurfaceShadow, public Traced {
  public:
   void borrow(SharedReference& shared) override { shared_ = &shared; }
+  gpu::Format visibility_format(const frame::SceneBuffers& scene) const override {
+    return scene.transmits() ? gpu::Format::rgba32f : gpu::Format::r32f;
+  }
   void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override {
     inputs.surface_points();  // a stage of its own
     inputs.timer.time("surface_query", [&] {
       reader_.query(inputs, visibility);
-      std::vector<float> lit;
-      lit.reserve(reader_.points().triangles.size());
-      for (const auto& verdict : shared_->verdicts(inputs.light_index, reader_.points()))
-        lit.push_back(verdict && verdict->verdict == reference::Verdict::lit ? 1.0f : 0.0f);
-      visibility.write(lit.data());
+      const SurfaceVerdicts& verdicts = shared_->verdicts(inputs.light_index, reader_.points());
+      if (visibility.format() == gpu::Format::r32f)
+        write<float>(verdicts, visibility, [](const glm::vec3& share) { return share.r; });
+      else
+        write<glm::vec4>(verdicts, visibility, [](const glm::vec3& share) { return glm::vec4(share, 0.0f); });
     });
   }
   bool sees_every_light() const override { return true; }
 
  private:
+  /// @param texel Texel(const glm::vec3& share)
+  template <typename Texel, typename MakeTexel>
+  static void write(const SurfaceVerdicts& verdicts, const gpu::Texture& visibility, const MakeTexel& texel) {
+    std::vector<Texel> texels;
+    texels.reserve(verdicts.size());
+    for (const auto& verdict : verdicts) texels.push_back(texel(verdict ? verdict->share : glm::vec3(0.0f)));
+    visibility.write(texels.data());
+  }
+
   frame::PointReader reader_;
   SharedReference* shared_ = nullptr;
 };
@@ -117,11 +130,17 @@ std::vector<reference::SurfacePoint> seen_points(const frame::SurfacePoints& fra
 
 constexpr frame::Traits k_truth = {.runs_on_gpu = false, .is_truth = true};
 
+frame::Traits transmitting_truth() {
+  frame::Traits traits = k_truth;
+  traits.transmits = true;
+  return traits;
+}
+
 }  // namespace
 
 frame::AirlightMethod reference_method() {
   return frame::describe<frame::Airlight, ExactOptions>(
-      "reference", "exact intervals of shadow on the CPU, nothing sampled: the truth", k_truth,
+      "reference", "exact intervals of shadow on the CPU, nothing sampled: the truth", transmitting_truth(),
       {frame::count_option({.name = "refine",
                             .meaning = "parts that each panel of the quadrature is cut into",
                             .quality = "changes nothing by more than the stated bound",
@@ -163,7 +182,7 @@ frame::AirlightMethod reference_march_method() {
 }
 
 frame::SurfaceMethod reference_surface_method() {
-  frame::Traits traits = k_truth;
+  frame::Traits traits = transmitting_truth();
   traits.is_exact = true;
   return frame::describe<frame::SurfaceShadow, frame::NoOptions>(
       "reference",
@@ -173,8 +192,30 @@ frame::SurfaceMethod reference_surface_method() {
 
 SharedReference::SharedReference(const scene::Geometry& geometry, const scene::View& view, Progress progress,
                                  const std::filesystem::path& cache)
-    : geometry_(geometry), view_(view), progress_(std::move(progress)), lights_(view.lights.size()) {
+    : geometry_(geometry),
+      view_(view),
+      progress_(std::move(progress)),
+      cache_folder_(cache),
+      lights_(view.lights.size()) {
   if (!cache.empty()) cache_.emplace(cache, geometry, view);
+}
+
+struct SharedReference::Opaque {
+  scene::Geometry geometry;
+  std::optional<SharedReference> reference;
+};
+
+SharedReference::~SharedReference() = default;
+
+SharedReference* SharedReference::taken_opaque() {
+  if (!scene::transmits(geometry_)) return nullptr;
+  if (!opaque_) {
+    opaque_ = std::make_unique<Opaque>();
+    opaque_->geometry = geometry_;
+    opaque_->geometry.transmission = scene::Transmission::opaque;
+    opaque_->reference.emplace(opaque_->geometry, view_, progress_, cache_folder_);
+  }
+  return &*opaque_->reference;
 }
 
 const reference::Reference& SharedReference::rays(std::size_t light) {
@@ -231,8 +272,7 @@ const SurfaceVerdicts& SharedReference::verdicts(std::size_t light, const frame:
   const auto start = Clock::now();
   verdicts.assign(points.triangles.size(), std::nullopt);
   if (const std::vector<reference::SurfacePoint> seen = seen_points(points, light); !seen.empty()) {
-    const reference::Triangles triangles{geometry_.positions, geometry_.triangles,
-                                         reference::CutOuts(geometry_)};
+    const reference::Triangles triangles(geometry_);
     const reference::SurfaceJudge judge(triangles, view_.lights[light], view_.camera.eye);
     const std::vector<reference::SurfaceVerdict> found = judge.judge(seen);
     auto verdict = found.begin();
@@ -260,6 +300,11 @@ void SharedReference::count(const reference::AirlightImage& image) {
 
 const reference::AirlightImage& SharedReference::exact(std::size_t light, int refinement) {
   OfLight& of_light = lights_[light];
+  if (scene::transmits_by_incidence(geometry_)) {  // no method shows its airlight: require_airlight
+    auto& black = of_light.exact[refinement];
+    black.radiance.resize(static_cast<std::size_t>(view_.size.x) * static_cast<std::size_t>(view_.size.y));
+    return black;
+  }
   const bool is_kept = load_exact(light, refinement);
   if (!is_kept) {
     const auto& made =

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -28,6 +29,9 @@ class SharedReference {
   /// @param cache folder where the truth is kept between runs of the program (TruthCache); empty for none
   SharedReference(const scene::Geometry& geometry, const scene::View& view, Progress progress,
                   const std::filesystem::path& cache = {});
+  ~SharedReference();
+  SharedReference(const SharedReference&) = delete;
+  SharedReference& operator=(const SharedReference&) = delete;
 
   /// Does what goes before the first ray, unless it is done, so that no frame is charged for it.
   void prepare();
@@ -46,6 +50,10 @@ class SharedReference {
   // Traced anew:
   reference::AirlightImage sampled(std::size_t light, int samples);
   reference::AirlightImage march(std::size_t light, int steps, reference::RayMode rays);
+
+  /// The same of the scene with opaque triangles alone, where light passes any; else nullptr. Its work is not
+  /// counted here.
+  SharedReference* taken_opaque();
 
   /// What was asked for since the last `take_work`.
   struct Work {
@@ -77,9 +85,14 @@ class SharedReference {
   void count(const reference::AirlightImage& image);
   reference::Progress report(const std::string& what) const;
 
+  /// A copy of the geometry, and its reference.
+  struct Opaque;
+
   const scene::Geometry& geometry_;
   const scene::View& view_;
   Progress progress_;
+  std::filesystem::path cache_folder_;
+  std::unique_ptr<Opaque> opaque_;
   std::optional<TruthCache> cache_;
   std::vector<OfLight> lights_;
   std::optional<std::vector<float>> distance_;

@@ -47,6 +47,8 @@ Truth trace_truth(SharedReference& reference, const scene::View& view, const fra
   figures.mean_airlight = mean(truth.airlight);
   figures.floor = std::max(k_dark * unshadowed_airlight(view), k_least);
   figures.bound = figures.mean_airlight > 0.0 ? error / figures.mean_airlight : 0.0;
+  if (SharedReference* opaque = reference.taken_opaque())
+    truth.opaque = std::make_shared<const Truth>(trace_truth(*opaque, view, points));
   return truth;
 }
 

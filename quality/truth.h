@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include <glm/glm.hpp>
 
+#include "frame/method.h"
 #include "frame/surface_points.h"
 #include "quality/metrics.h"
 #include "quality/traced.h"
@@ -40,6 +42,14 @@ struct Truth {
   std::vector<float> distance;            ///< along the view ray [m]; 0 where it hits nothing
   std::vector<SurfaceVerdicts> verdicts;  ///< for each light, on the points that frames of the view shade
   TruthFigures figures;
+  /// Where light passes triangles, the truth of a scene of which none lets any through: what methods show
+  /// that take all for opaque.
+  std::shared_ptr<const Truth> opaque = nullptr;
+
+  /// By which a method's image is judged.
+  const Truth& shown_by(const frame::Traits& traits) const {
+    return opaque && !traits.transmits ? *opaque : *this;
+  }
 };
 
 /// @param points that frames of the view shade

@@ -11,6 +11,7 @@
 #include "quality/hash.h"
 #include "scene/error.h"
 #include "scene/light_texture.h"
+#include "scene/transmission.h"
 
 namespace airlight::quality {
 namespace {
@@ -63,6 +64,14 @@ std::string hash_of_geometry(const scene::Geometry& geometry) {
                            static_cast<int>(material.wrap[1])});
       hash.add(std::vector{material.cut_out->least_alpha});
     }
+  }
+  if (scene::transmits(geometry)) {
+    std::vector<glm::uvec4> attenuations;
+    for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i) {
+      const scene::Attenuation attenuation = scene::attenuation_of(geometry, i);
+      attenuations.emplace_back(attenuation.of_channel, attenuation.grows_by_incidence);
+    }
+    hash.add(attenuations);
   }
   return hash.text();
 }

@@ -91,7 +91,7 @@ class Reference::TileIntegrator {
         hierarchy_(hierarchy),
         image_(image),
         integrals_(state.run_integrals(refinement)),
-        occluders_(state.sun, &state.triangles.cut_outs) {}
+        occluders_(state.sun, &state.triangles) {}
 
   Sums integrate(const Tile& tile) {
     tile_ = tile;
@@ -157,7 +157,7 @@ class Reference::TileIntegrator {
     const Ray& view_ray = ray(x, y);
     shadows_.trace(view_ray, occluders_);
     const auto [radiance] = integrals_.template radiances<1>(view_ray, [&](const auto& add) {
-      for (const ShadowIntervals::Run& run : shadows_.lit_runs()) add(0, run.from, run.to, 1.0);
+      for (const ShadowIntervals::Run& run : shadows_.lit_runs()) add(0, run.from, run.to, run.share);
     });
     image_.radiance[state_.index(x, y)] = glm::vec3(radiance);
     sums_.radiance += radiance.r + radiance.g + radiance.b;

@@ -39,7 +39,7 @@ Reference::State::State(const scene::Geometry& geometry, const scene::View& v, s
     : view(v),
       light(view.lights.at(light_index)),
       camera(scene::camera_frame(view.camera, view.size)),
-      triangles{geometry.positions, geometry.triangles, CutOuts(geometry)},
+      triangles(geometry),
       box(scene::bounds(geometry)),
       sun(scene::is_sun(light) ? std::optional(glm::normalize(light.towards)) : std::nullopt),
       origin(sun ? camera.eye : light.position),

@@ -27,7 +27,7 @@ class RunIntegrals {
 
   /// N sums over runs of one view ray, RGB [W/(m² sr)].
   /// @param visit void(add): calls add(sum, from, to, weight) with each run, from and to as in
-  ///              `ShadowIntervals::Run`
+  ///              `ShadowIntervals::Run`, weight a number or RGB
   template <std::size_t N, class Visit>
   std::array<glm::dvec3, N> radiances(const ViewRay& ray, const Visit& visit) {
     if (texture_) texture_->aim(ray);
@@ -38,7 +38,7 @@ class RunIntegrals {
     std::array<glm::dvec3, N> sums = integrate_channels<N>(ray, medium_, scale, [&](FogQuadrature& fog) {
       fog.refine(refinement_);
       std::array<glm::dvec3, N> of_sigma{};
-      visit([&](std::size_t sum, double from, double to, double weight) {
+      visit([&](std::size_t sum, double from, double to, const auto& weight) {
         of_sigma[sum] += weight * fog.integral(from, to, texture, shape);
       });
       return of_sigma;
@@ -51,7 +51,7 @@ class RunIntegrals {
   std::array<glm::dvec3, N> radiances(const SunRay& ray, const Visit& visit) {
     const SunFog fog(ray, medium_, glm::dvec3(light_.irradiance));
     std::array<glm::dvec3, N> sums{};
-    visit([&](std::size_t sum, double from, double to, double weight) {
+    visit([&](std::size_t sum, double from, double to, const auto& weight) {
       sums[sum] += weight * fog.radiance(from, to);
     });
     return sums;

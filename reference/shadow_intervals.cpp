@@ -60,7 +60,7 @@ void Occluders::clear() {
 void Occluders::add(const Corners& corners, std::uint32_t triangle) {
   if (sun_ ? is_edge_on_to_sun(corners, *sun_) : is_edge_on(corners)) return;
   corners_.push_back(corners);
-  if (cut_outs_) triangles_.push_back(triangle);
+  if (model_) triangles_.push_back(triangle);
   double largest = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
     const glm::dvec3& c = corners[i];
@@ -127,7 +127,11 @@ void ShadowIntervals::add_shadow(const Ray& ray, const Interval& range, const Oc
     if (!cast) return;
     const double from = std::max(std::min(cast->a, cast->b), range.from),
                  to = std::min(std::max(cast->a, cast->b), range.to);
-    if (from < to) intervals_.push_back({from, to});
+    if (from >= to) return;
+    if (const glm::uvec3* attenuation = occluders.attenuation(i))
+      tinted_.push_back({{from, to}, *attenuation});
+    else
+      intervals_.push_back({from, to});
   };
   const CutOuts* cut_outs = occluders.cut_outs(i);
   if (!cut_outs) return add(segment);
@@ -150,6 +154,7 @@ void ShadowIntervals::add_shadow(const Ray& ray, const Interval& range, const Oc
 template <class Ray>
 void ShadowIntervals::find_shadows(const Ray& ray, const Interval& range, Occluders& occluders) {
   intervals_.clear();
+  tinted_.clear();
   occluders.find_crossing(glm::cross(ray.w, ray.q), crossing_);
   for (const std::uint32_t i : crossing_) add_shadow(ray, range, occluders, i);
   std::sort(intervals_.begin(), intervals_.end(),
@@ -167,6 +172,34 @@ void ShadowIntervals::for_each_gap(const Interval& range, const Function& f) con
   if (lit_from < range.to) f(lit_from, range.to);
 }
 
+/// Calls f(from, to, share) with the gaps, cut where the share of the light that arrives changes.
+template <class Function>
+void ShadowIntervals::for_each_lit(const Interval& range, const Function& f) {
+  changes_.clear();
+  for (const Tinted& tinted : tinted_) {
+    const glm::vec<3, std::int64_t> attenuation(tinted.attenuation);
+    changes_.push_back({tinted.interval.from, attenuation});
+    changes_.push_back({tinted.interval.to, -attenuation});
+  }
+  std::sort(changes_.begin(), changes_.end(), [](const Change& a, const Change& b) { return a.at < b.at; });
+
+  glm::vec<3, std::int64_t> sum(0);
+  auto next = changes_.begin();
+  const auto pass = [&](double at) {
+    for (; next != changes_.end() && next->at <= at; ++next) sum += next->attenuation;
+  };
+  for_each_gap(range, [&](double from, double to) {
+    for (double at = from; at < to;) {
+      pass(at);
+      const double end = next == changes_.end() ? to : std::min(next->at, to);
+      const glm::dvec3 share = scene::share_left(
+          glm::uvec3(glm::min(sum, glm::vec<3, std::int64_t>(scene::Attenuation::k_nothing_left))));
+      if (share != glm::dvec3(0.0)) f(at, end, share);
+      at = end;
+    }
+  });
+}
+
 void ShadowIntervals::trace(const ViewRay& ray, Occluders& occluders) {
   const Interval range{
       (ray.from - ray.D * ray.cos_alpha) / (ray.D * ray.sin_alpha),
@@ -174,10 +207,10 @@ void ShadowIntervals::trace(const ViewRay& ray, Occluders& occluders) {
   find_shadows(ray, range, occluders);
 
   lit_.clear();
-  for_each_gap(range, [&](double from, double to) {
+  for_each_lit(range, [&](double from, double to, const glm::dvec3& share) {
     const double psi_from = from == range.from ? ray.psi_start : std::atan2(1.0, from);
     const double psi_to = to == range.to ? ray.psi_end : std::atan2(1.0, to);
-    if (psi_from - psi_to > k_shortest * ray.phi_d) lit_.push_back({psi_from, psi_to});
+    if (psi_from - psi_to > k_shortest * ray.phi_d) lit_.push_back({psi_from, psi_to, share});
   });
 }
 
@@ -185,8 +218,8 @@ void ShadowIntervals::trace(const SunRay& ray, Occluders& occluders) {
   const Interval range{ray.from, ray.to};
   find_shadows(ray, range, occluders);
   lit_.clear();
-  for_each_gap(range, [&](double from, double to) {
-    if (from < to * (1.0 - k_shortest)) lit_.push_back({from, to});
+  for_each_lit(range, [&](double from, double to, const glm::dvec3& share) {
+    if (from < to * (1.0 - k_shortest)) lit_.push_back({from, to, share});
   });
 }
 

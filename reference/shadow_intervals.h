@@ -15,15 +15,16 @@ namespace airlight::reference {
 class Occluders {
  public:
   /// @param sun unit direction to the light where that is a sun
-  /// @param cut_outs of the triangles, where these are a model's; kept by reference
-  explicit Occluders(std::optional<glm::dvec3> sun = {}, const CutOuts* cut_outs = nullptr)
-      : sun_(sun), cut_outs_(cut_outs && !cut_outs->empty() ? cut_outs : nullptr) {}
+  /// @param model whose triangles they are; kept by reference. Without, they are whole and opaque.
+  explicit Occluders(std::optional<glm::dvec3> sun = {}, const Triangles* model = nullptr)
+      : sun_(sun),
+        model_(model && !(model->cut_outs.empty() && model->attenuations.empty()) ? model : nullptr) {}
 
   void clear();
 
   /// @param corners relative to the light [m], or to the eye under a sun. A triangle edge-on to the light
   /// casts no shadow, and is left out.
-  /// @param triangle its number, where there are cut-outs
+  /// @param triangle its number in the model
   void add(const Corners& corners, std::uint32_t triangle = 0);
 
   std::size_t count() const { return corners_.size(); }
@@ -31,7 +32,12 @@ class Occluders {
 
   /// What is cut out of one, or nullptr; the number by which it is asked.
   const CutOuts* cut_outs(std::size_t i) const {
-    return cut_outs_ && cut_outs_->has(triangles_[i]) ? cut_outs_ : nullptr;
+    return model_ && model_->cut_outs.has(triangles_[i]) ? &model_->cut_outs : nullptr;
+  }
+  /// What one takes of light that passes it, or nullptr where none does.
+  const glm::uvec3* attenuation(std::size_t i) const {
+    return model_ && model_->transmits(triangles_[i]) ? &model_->attenuations[triangles_[i]].of_channel
+                                                      : nullptr;
   }
   std::uint32_t triangle(std::size_t i) const { return triangles_[i]; }
 
@@ -41,9 +47,9 @@ class Occluders {
 
  private:
   std::optional<glm::dvec3> sun_;
-  const CutOuts* cut_outs_;
+  const Triangles* model_;  ///< where it says more than corners
   std::vector<Corners> corners_;
-  std::vector<std::uint32_t> triangles_;   ///< where there are cut-outs
+  std::vector<std::uint32_t> triangles_;   ///< where there is a model
   std::vector<float> x_[3], y_[3], z_[3];  ///< corners in single precision
   std::vector<float> margin_;              ///< how far their distance from a plane may be off [m]
   std::vector<std::int32_t> flags_;
@@ -61,7 +67,8 @@ class Occluders {
 /// counts as positive), and an edge's point in the half-plane is computed in the same order of its ends by
 /// both of its triangles. Neighbouring triangles thus hide intervals that touch bit by bit, and a closed
 /// surface lets no light through where a ray's half-plane meets its edges, corners, or a whole face.
-/// Of a triangle that is cut out, each part of the segment where there is a surface hides an interval.
+/// Of a triangle that is cut out, each part of the segment where there is a surface hides an interval. One
+/// that light passes hides nothing, but takes its part of the light there.
 class ShadowIntervals {
  public:
   /// Finds what is lit of the view ray.
@@ -73,11 +80,12 @@ class ShadowIntervals {
   /// `SunRay`.
   struct Run {
     double from, to;
+    glm::dvec3 share{1.0};  ///< of the light, RGB: what triangles let through on which it falls before
   };
   const std::vector<Run>& lit_runs() const { return lit_; }
 
-  /// Triangles that hide a part of the ray.
-  std::size_t count() const { return intervals_.size(); }
+  /// Triangles that hide a part of the ray, or let a share of the light through to it.
+  std::size_t count() const { return intervals_.size() + tinted_.size(); }
 
  private:
   struct Interval {
@@ -89,10 +97,24 @@ class ShadowIntervals {
   void add_shadow(const Ray& ray, const Interval& range, const Occluders& occluders, std::size_t i);
   template <class Function>
   void for_each_gap(const Interval& range, const Function& f) const;
+  template <class Function>
+  void for_each_lit(const Interval& range, const Function& f);
 
   std::vector<std::uint32_t> crossing_;
   std::vector<CutOuts::Part> parts_;
   std::vector<Interval> intervals_;
+  /// In the shadow of a triangle that light passes.
+  struct Tinted {
+    Interval interval;
+    glm::uvec3 attenuation;
+  };
+  std::vector<Tinted> tinted_;
+  /// Where such a shadow begins, or ends.
+  struct Change {
+    double at;                              ///< u
+    glm::vec<3, std::int64_t> attenuation;  ///< that is added
+  };
+  std::vector<Change> changes_;
   std::vector<Run> lit_;
 };
 

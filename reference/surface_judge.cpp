@@ -89,6 +89,24 @@ class EdgePlane {
 
   const Plane& plane() const { return plane_; }
 
+  /// On which side a point of the plane comes to lie that is moved a little along x, less along y, least
+  /// along z: the sign of the normal's first component that is not 0.
+  int side_of_shift() const {
+    for (int axis = 0; axis < 3; ++axis) {
+      glm::dvec3 shift(0.0);
+      shift[axis] = 1.0;
+      ExactSum slope;
+      if (along_) {
+        slope.add_volume(*along_, to_, shift);
+        slope.add_volume(*along_, from_, shift, -1);
+      } else {
+        slope.add_volume(from_, to_, shift);
+      }
+      if (const int sign = slope.sign()) return sign;
+    }
+    return 0;
+  }
+
   /// The sign of det(from, to, point), or of det(along, to − from, point − from).
   int side_of(const glm::dvec3& point) const {
     if (const int sign = plane_.height(point).sign()) return sign;
@@ -210,10 +228,10 @@ bool SurfaceJudge::are_coplanar(std::uint32_t a, std::uint32_t b) const {
   return holds(a, b) && holds(b, a);
 }
 
-/// Bit i is set where the triangle hides point i.
+/// Bit i is set where light meets the triangle on its way to point i.
 /// @param lit points to ask for
-std::uint32_t SurfaceJudge::hidden_by(std::uint32_t triangle, const Cluster& cluster,
-                                      std::uint32_t lit) const {
+std::uint32_t SurfaceJudge::met_by(std::uint32_t triangle, Meets meets, const Cluster& cluster,
+                                   std::uint32_t lit) const {
   const Face face = corners(triangle);
   const EdgePlane edges[3] = {
       {face[0], face[1], along_}, {face[1], face[2], along_}, {face[2], face[0], along_}};
@@ -237,16 +255,31 @@ std::uint32_t SurfaceJudge::hidden_by(std::uint32_t triangle, const Cluster& clu
   if (side == Side::beyond) return 0;
   if (triangle == cluster.triangle || are_coplanar(triangle, cluster.triangle)) return 0;
 
-  std::uint32_t hidden = 0;
+  const auto is_within = [&](const EdgePlane& edge, const glm::dvec3& point) {
+    const int of_edge = facing * edge.side_of(point);
+    return of_edge > 0 || (of_edge == 0 && (meets == Meets::touched || facing * edge.side_of_shift() > 0));
+  };
+  std::uint32_t met = 0;
   for (std::size_t i = 0; i < k_points; ++i) {
     if (!(lit >> i & 1u)) continue;
     const glm::dvec3& point = cluster.points[i];
-    bool hides = side == Side::within || facing * side_of(face, plane, point) > 0;
-    for (int edge = 0; edge < 3 && hides; ++edge)
-      hides = sides[edge] == Side::within || facing * edges[edge].side_of(point) >= 0;
-    if (hides && is_there(triangles_.cut_outs, triangle, edges, point)) hidden |= 1u << i;
+    bool is_met = side == Side::within || facing * side_of(face, plane, point) > 0;
+    for (int edge = 0; edge < 3 && is_met; ++edge)
+      is_met = sides[edge] == Side::within || is_within(edges[edge], point);
+    if (is_met && is_there(triangles_.cut_outs, triangle, edges, point)) met |= 1u << i;
   }
-  return hidden;
+  return met;
+}
+
+/// What the triangle takes of the light to a point.
+glm::uvec3 SurfaceJudge::attenuation(std::uint32_t triangle, const glm::dvec3& point) const {
+  const scene::Attenuation& taken = triangles_.attenuations[triangle];
+  if (!taken.grows_by_incidence) return taken.of_channel;
+  const Face face = corners(triangle);
+  const glm::dvec3 a(face[0]), ab = glm::dvec3(face[1]) - a, ac = glm::dvec3(face[2]) - a;
+  const glm::dvec3 direction = along_ ? glm::dvec3(*along_) : point;
+  const glm::dvec3 n = glm::cross(ab / largest_of(ab), ac / largest_of(ac));
+  return scene::attenuation_at(taken, std::abs(glm::dot(glm::normalize(n), glm::normalize(direction))));
 }
 
 /// All through which light comes to the points of a cluster, relative to the light, or to the eye under a
@@ -290,7 +323,8 @@ Region SurfaceJudge::region_before(const Cluster& cluster) const {
 
 SurfaceVerdict SurfaceJudge::judge(const SurfacePoint& point, Scratch& scratch) const {
   constexpr SurfaceVerdict k_dark{Verdict::dark, true};
-  if (!faces(point.triangle)) return k_dark;
+  const bool is_behind = !faces(point.triangle);
+  if (is_behind && !triangles_.transmits(point.triangle)) return k_dark;
 
   Cluster cluster;
   cluster.triangle = point.triangle;
@@ -309,17 +343,39 @@ SurfaceVerdict SurfaceJudge::judge(const SurfacePoint& point, Scratch& scratch) 
   }
 
   // What hid the neighbour is likely to hide this one.
-  if (scratch.hider && hidden_by(*scratch.hider, cluster, Cluster::k_all) == Cluster::k_all) return k_dark;
+  if (scratch.hider && met_by(*scratch.hider, Meets::touched, cluster, Cluster::k_all) == Cluster::k_all)
+    return k_dark;
 
   std::uint32_t lit = Cluster::k_all;
+  std::array<glm::uvec3, k_points> taken{};
+  const auto take = [&](std::uint32_t triangle, std::uint32_t points) {
+    for (std::size_t i = 0; i < k_points; ++i) {
+      if (!(points >> i & 1u)) continue;
+      taken[i] = scene::add_attenuation(taken[i], attenuation(triangle, cluster.points[i]));
+      if (taken[i] == glm::uvec3(scene::Attenuation::k_nothing_left)) lit &= ~(1u << i);
+    }
+  };
   hierarchy_.find(region_before(cluster), scratch.found);
   for (const std::uint32_t triangle : scratch.found) {
-    const std::uint32_t hidden = hidden_by(triangle, cluster, lit);
-    if (hidden == Cluster::k_all) scratch.hider = triangle;
-    lit &= ~hidden;
-    if (lit == 0) break;
+    if (triangles_.transmits(triangle)) {
+      take(triangle, met_by(triangle, Meets::crossed, cluster, lit));
+    } else {
+      const std::uint32_t hidden = met_by(triangle, Meets::touched, cluster, lit);
+      if (hidden == Cluster::k_all) scratch.hider = triangle;
+      lit &= ~hidden;
+    }
+    if (lit == 0) return k_dark;
   }
-  return {lit & 1u ? Verdict::lit : Verdict::dark, lit == 0 || lit == Cluster::k_all};
+  if (is_behind) take(point.triangle, lit);
+  if (!(lit & 1u)) return {Verdict::dark, lit == 0};
+  // Neighbours in one plane take the same but for the rounding of the angle under which light falls on them.
+  constexpr double k_alike = 0x1p-10;
+  const glm::dvec3 share = scene::share_left(taken[0]);
+  const bool is_decided =
+      lit == Cluster::k_all && std::all_of(taken.begin(), taken.end(), [&](glm::uvec3 other) {
+        return glm::all(glm::lessThan(glm::abs(scene::share_left(other) - share), glm::dvec3(k_alike)));
+      });
+  return {Verdict::lit, is_decided, glm::vec3(share)};
 }
 
 SurfaceVerdict SurfaceJudge::judge(const SurfacePoint& point) const {

@@ -24,8 +24,10 @@ struct SurfacePoint {
 enum class Verdict : std::uint8_t { dark, lit };
 
 struct SurfaceVerdict {
-  Verdict verdict;
+  Verdict verdict;  ///< dark where nothing of the light arrives
   bool is_decided;  ///< whether the frame's rounding of the point leaves no choice
+  /// What arrives of the light, RGB: less than all behind triangles that it passes.
+  glm::vec3 share = glm::vec3(verdict == Verdict::lit ? 1.0f : 0.0f);
   bool operator==(const SurfaceVerdict&) const = default;
 };
 
@@ -40,6 +42,11 @@ struct SurfaceVerdict {
 /// - A triangle, its edges included, hides what the light reaches through it strictly beyond its plane. One
 ///   that is edge-on to the light hides nothing.
 /// - The point's own triangle, and those that lie in the same plane in world space, do not hide it.
+///
+/// A triangle that light passes takes its part of it instead, where the light's ray crosses it: of those that
+/// share an edge or a corner which the ray meets, one of each sheet counts, as if the point were moved a
+/// little along x, less along y and least along z. A surface of such a triangle that is seen from the side
+/// away from the light glows: what reaches its other side has passed it, too.
 ///
 /// The frame's point is off its surface by rounding. Where 16 points around it, as far off as rounding may
 /// have taken it, do not all have its verdict, it is undecided.
@@ -71,7 +78,9 @@ class SurfaceJudge {
 
   std::array<glm::vec3, 3> corners(std::uint32_t triangle) const;
   bool are_coplanar(std::uint32_t a, std::uint32_t b) const;
-  std::uint32_t hidden_by(std::uint32_t triangle, const Cluster& cluster, std::uint32_t lit) const;
+  enum class Meets { touched, crossed };
+  std::uint32_t met_by(std::uint32_t triangle, Meets meets, const Cluster& cluster, std::uint32_t lit) const;
+  glm::uvec3 attenuation(std::uint32_t triangle, const glm::dvec3& point) const;
   Region region_before(const Cluster& cluster) const;
   SurfaceVerdict judge(const SurfacePoint& point, Scratch& scratch) const;
 

@@ -10,6 +10,7 @@
 
 #include "reference/cut_outs.h"
 #include "scene/scene.h"
+#include "scene/transmission.h"
 
 namespace airlight::reference {
 
@@ -47,8 +48,23 @@ struct Triangles {
   std::vector<glm::vec3> positions;  ///< world space [m]
   std::vector<glm::uvec3> indices;
   CutOuts cut_outs = {};
+  /// One a triangle, where light passes any; else empty.
+  std::vector<scene::Attenuation> attenuations = {};
+
+  /// Whether light passes that triangle.
+  bool transmits(std::uint32_t triangle) const {
+    return !attenuations.empty() && !attenuations[triangle].is_opaque();
+  }
 
   std::size_t count() const { return indices.size(); }
+
+  explicit Triangles(const scene::Geometry& geometry)
+      : positions(geometry.positions), indices(geometry.triangles), cut_outs(geometry) {
+    if (!scene::transmits(geometry)) return;
+    attenuations.reserve(count());
+    for (std::uint32_t i = 0; i < count(); ++i) attenuations.push_back(scene::attenuation_of(geometry, i));
+  }
+  Triangles() = default;
 
   /// @param origin world space [m]
   Corners around(const glm::dvec3& origin, std::uint32_t triangle) const {

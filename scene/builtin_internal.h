@@ -103,6 +103,7 @@ Scene make_fence();
 Scene make_forest();
 Scene make_harbour();
 Scene make_jali();
+Scene make_chapel();
 Scene make_lighthouse();
 
 /// @param triangles at least 2000

@@ -393,7 +393,7 @@ class Importer {
       count(std::ranges::any_of(emission, [](double e) { return e != 0.0; }), "light of emissive materials",
             "only point lights, spots and suns are rendered");
       if (material.alphaMode == "MASK") read_mask(material, color[3], read);
-      count(material.alphaMode == "BLEND", "transparency of materials", "surfaces are opaque");
+      if (material.alphaMode == "BLEND") read_blend(material, color[3], read);
       count(material.extensions.contains("KHR_materials_transmission"), "transmission of materials",
             "surfaces are opaque");
     }
@@ -401,6 +401,14 @@ class Importer {
     default_material_ = static_cast<std::uint32_t>(raw_.materials.size());
     raw_.materials.push_back({glm::vec3(1.0f)});
     places_.emplace_back();
+  }
+
+  /// What is covered reflects the base colour, and what is not lets light of that colour through.
+  void read_blend(const tinygltf::Material& material, double alpha, Material& read) {
+    count(material.pbrMetallicRoughness.baseColorTexture.index >= 0, "textures of transparent materials",
+          "light passes as by their factors alone");
+    read.transmittance = static_cast<float>(1.0 - alpha) * read.albedo;
+    read.albedo *= static_cast<float>(alpha);
   }
 
   /// Where the product of the texture's alpha and the material's is less than the cutoff, there is nothing.

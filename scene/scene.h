@@ -47,12 +47,24 @@ struct Material {
   std::optional<std::uint32_t> texture = {};  ///< of Geometry::textures: multiplies `albedo`
   std::array<TextureWrap, 2> wrap = {};       ///< of its textures: left and right, above and below
   std::optional<CutOut> cut_out = {};
+  /// Of the light that meets it, the share that passes straight through, RGB in [0, 1]; 0 of what is opaque.
+  /// Such a surface is a thin layer: nothing is refracted. The eye does not look through it; where it is seen
+  /// from the side away from the light, it glows with what it lets through.
+  glm::vec3 transmittance{0.0f};
 };
 
 /// Whether its triangles need places in a texture.
 inline bool is_textured(const Material& material) {
   return material.texture || material.cut_out;
 }
+
+/// What light passes. A method that cannot show it takes every triangle for opaque.
+enum class Transmission {
+  material,        ///< as its material says (Material::transmittance)
+  opaque,          ///< nothing
+  x_ray,           ///< every triangle, all alike: a share that falls with the angle of incidence
+  x_ray_coloured,  ///< so, with a colour for each triangle
+};
 
 /// Every surface of a scene as one triangle list in world space: right-handed, +Y up, metres.
 ///
@@ -63,6 +75,7 @@ struct Geometry {
   std::vector<glm::uvec3> triangles;                ///< indices into `positions`
   std::vector<std::uint32_t> material_of_triangle;  ///< indices into `materials`, one a triangle
   std::vector<Material> materials;
+  Transmission transmission = Transmission::material;
 
   std::vector<TextureImage> textures;
   /// Where each triangle's corners lie in its material's texture: (0, 0) is the image's top left corner, (1,

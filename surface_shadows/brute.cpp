@@ -6,26 +6,30 @@
 
 namespace airlight::surface_shadows {
 
-Brute::Brute(const BruteOptions& options) : occluders_(options.cull), pass_(k_brute_frag) {}
+Brute::Brute(const BruteOptions& options) : occluders_(options.cull) {}
 
 void Brute::query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) {
   const gpu::Texture& points = inputs.surface_points();
   inputs.triangle_planes();
   inputs.timer.time("surface_build", [&] { occluders_.build(inputs); });
+  if (scene_ != inputs.scene.id()) {
+    pass_.emplace(k_brute_frag, std::array{transmission_constant(inputs.scene)});
+    scene_ = inputs.scene.id();
+  }
   inputs.timer.time("surface_query", [&] {
     occluders_.bind(inputs);
     points.bind_sampler(shaders::k_surface_unit);
     inputs.triangles.bind_sampler(shaders::k_triangle_unit);
-    pass_.pipeline().set(0, occluders_.count());
-    pass_.pipeline().set(1, occluders_.scale());
-    pass_.run({visibility});
+    pass_->pipeline().set(1, occluders_.scale());
+    pass_->pipeline().set(2, occluders_.count());
+    pass_->run({visibility});
   });
 }
 
 frame::SurfaceMethod brute_method() {
   return frame::describe<frame::SurfaceShadow, BruteOptions>(
       "brute", "every triangle is asked whether it hides the pixel's point: exact, for small scenes",
-      {.is_exact = true}, {culling_option(&BruteOptions::cull)},
+      {.is_exact = true, .transmits = true}, {culling_option(&BruteOptions::cull)},
       [](const gpu::Context&, const BruteOptions& options) { return std::make_unique<Brute>(options); });
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include "frame/method.h"
 #include "frame/screen_pass.h"
 #include "surface_shadows/occluders.h"
+#include "surface_shadows/transmission.h"
 
 namespace airlight::surface_shadows {
 
@@ -17,12 +19,16 @@ struct BruteOptions {
 class Brute : public frame::SurfaceShadow {
  public:
   explicit Brute(const BruteOptions& options);
+  gpu::Format visibility_format(const frame::SceneBuffers& scene) const override {
+    return transmission_format(scene);
+  }
   void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override;
   std::map<std::string, std::int64_t> bytes() const override { return {{"occluders", occluders_.bytes()}}; }
 
  private:
   Occluders occluders_;
-  frame::ScreenPass pass_;
+  std::uint64_t scene_ = 0;                ///< SceneBuffers::id
+  std::optional<frame::ScreenPass> pass_;  ///< of the scene
 };
 
 frame::SurfaceMethod brute_method();

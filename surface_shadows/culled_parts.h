@@ -19,6 +19,11 @@ enum class Culling {
   automatic,
 };
 
+/// Whether anything is to be left out of a scene: where light passes a part, both of its sides count.
+inline bool culls(Culling culling, const frame::SceneBuffers& scene) {
+  return culling == Culling::automatic && !scene.transmits();
+}
+
 /// The parts of a scene whose triangles that face the light may be left out, those that have two sides; and
 /// whether they are, for each light of each frame.
 class CulledParts {

@@ -32,25 +32,29 @@ std::uint32_t flag(Use use) {
 
 }  // namespace
 
-frame::ScreenPass MetricTree::query_pass(Counted counted) const {
-  return frame::ScreenPass(
-      k_metric_tree_query_frag,
-      std::array{gpu::Constant(0, static_cast<std::uint32_t>(counted)),
-                 gpu::Constant(1, flag(options_.distance_cull)),
-                 gpu::Constant(2, flag(options_.interval_cull)), gpu::Constant(3, flag(options_.slabs)),
-                 gpu::Constant(4, static_cast<std::uint32_t>(options_.stack))});
+std::vector<gpu::Constant> MetricTree::walk_constants(const frame::SceneBuffers& scene) const {
+  return {gpu::Constant(31, flag(options_.distance_cull)),
+          gpu::Constant(32, static_cast<std::uint32_t>(options_.stack)),
+          gpu::Constant(33, flag(options_.interval_cull)), gpu::Constant(35, flag(options_.slabs)),
+          transmission_constant(scene)};
+}
+
+frame::ScreenPass MetricTree::query_pass(const frame::SceneBuffers& scene, Counted counted) const {
+  std::vector<gpu::Constant> constants = walk_constants(scene);
+  constants.emplace_back(0, static_cast<std::uint32_t>(counted));
+  return frame::ScreenPass(k_metric_tree_query_frag, constants);
 }
 
 MetricTree::MetricTree(const MetricTreeOptions& options)
-    : options_(options),
-      cones_program_(gpu::Pipeline::compute(
-          k_metric_tree_cones_comp, std::array{gpu::Constant(0, options.cull == Culling::automatic ? 1u : 0u),
-                                               gpu::Constant(1, flag(options.normal_cones))})),
-      insert_program_(gpu::Pipeline::compute(k_metric_tree_insert_comp)),
-      query_(query_pass(Counted::none)) {}
+    : options_(options), insert_program_(gpu::Pipeline::compute(k_metric_tree_insert_comp)) {}
 
 void MetricTree::load(const frame::FrameInputs& inputs) {
-  if (options_.cull == Culling::automatic) culled_parts_ = CulledParts(inputs);
+  culls_ = culls(options_.cull, inputs.scene);
+  culled_parts_ = culls_ ? CulledParts(inputs) : CulledParts();
+  cones_program_ = gpu::Pipeline::compute(
+      k_metric_tree_cones_comp,
+      std::array{gpu::Constant(0, culls_ ? 1u : 0u), gpu::Constant(1, flag(options_.normal_cones))});
+  query_.emplace(query_pass(inputs.scene, Counted::none));
   TriangleClusters made;
   inputs.timer.time("triangle_clusters", [&] {
     made = make_triangle_clusters(inputs.geometry(), inputs.scene.order(), culled_parts_.of_triangle(),
@@ -133,12 +137,18 @@ std::uint32_t MetricTree::write_light_view(const frame::FrameInputs& inputs) con
 }
 
 void MetricTree::build(const frame::FrameInputs& inputs) {
+  inputs.triangle_planes();  // a stage of its own
+  if (scene_ != inputs.scene.id()) load(inputs);
+  inputs.timer.time("surface_build", [&] { insert_clusters(inputs); });
+}
+
+void MetricTree::insert_clusters(const frame::FrameInputs& inputs) {
   scale_ = light_scale(inputs);
   // Before the first node stands what leads to it.
   constexpr std::array<std::uint32_t, k_node_bytes / sizeof(std::uint32_t)> k_no_tree{};
   nodes_.write(k_no_tree.data(), k_node_bytes);
   if (cluster_count_ == 0) return;
-  if (options_.cull == Culling::automatic) {
+  if (culls_) {
     culled_parts_.find(inputs, scale_.margin());
     culled_parts_.bind();
   }
@@ -162,40 +172,42 @@ void MetricTree::build(const frame::FrameInputs& inputs) {
   insert_program_.dispatch({cluster_count_, 1, 1});
 }
 
-void MetricTree::run(const frame::ScreenPass& pass, const frame::FrameInputs& inputs,
-                     const gpu::Texture& image) const {
+void MetricTree::bind_walk(const frame::FrameInputs& inputs, const gpu::Pipeline& pipeline) const {
   inputs.scene.bind_samplers();
   inputs.triangle_planes().bind_sampler(shaders::k_triangle_planes_unit);
-  inputs.surface_points().bind_sampler(shaders::k_surface_unit);
-  inputs.triangles.bind_sampler(shaders::k_triangle_unit);
+  if (inputs.scene.transmits()) inputs.scene.attenuations().bind_sampler(shaders::k_attenuations_unit);
   cluster_texels_.bind_sampler(shaders::k_clusters_unit);
   triangle_texels_.bind_sampler(shaders::k_cluster_triangles_unit);
   always_asked_texels_.bind_sampler(shaders::k_always_asked_unit);
   node_texels_.bind_sampler(shaders::k_metric_tree_unit);
   const frame::LightOrigin origin = inputs.resources.origin();
   const Distances of_light = distances(inputs, scale_);
-  pass.pipeline().set(0, origin.high);
-  pass.pipeline().set(1, origin.low);
-  pass.pipeline().set(2, scale_.scale);
-  pass.pipeline().set(3, of_light.error);
-  pass.pipeline().set(4, of_light.slack);
-  pass.pipeline().set(5, of_light.root_distance);
+  pipeline.set(1, scale_.scale);
+  pipeline.set(2, origin.high);
+  pipeline.set(3, origin.low);
+  pipeline.set(4, of_light.error);
+  pipeline.set(5, of_light.slack);
+  pipeline.set(6, of_light.root_distance);
   // Without these the shader has no use for it, and no place.
-  if (options_.slabs == Use::on || options_.distance_cull == Use::on) pass.pipeline().set(6, scale_.reach);
+  if (options_.slabs == Use::on || options_.distance_cull == Use::on) pipeline.set(7, scale_.reach);
+}
+
+void MetricTree::run(const frame::ScreenPass& pass, const frame::FrameInputs& inputs,
+                     const gpu::Texture& image) const {
+  bind_walk(inputs, pass.pipeline());
+  inputs.surface_points().bind_sampler(shaders::k_surface_unit);
+  inputs.triangles.bind_sampler(shaders::k_triangle_unit);
   pass.run({image});
 }
 
 void MetricTree::query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) {
-  // Stages of their own.
-  inputs.surface_points();
-  inputs.triangle_planes();
-  if (scene_ != inputs.scene.id()) load(inputs);
-  inputs.timer.time("surface_build", [&] { build(inputs); });
-  inputs.timer.time("surface_query", [&] { run(query_, inputs, visibility); });
+  inputs.surface_points();  // a stage of its own
+  build(inputs);
+  inputs.timer.time("surface_query", [&] { run(*query_, inputs, visibility); });
 }
 
 void MetricTree::count_nodes(const frame::FrameInputs& inputs, const gpu::Texture& counts) {
-  run(query_pass(Counted::nodes), inputs, counts);
+  run(query_pass(inputs.scene, Counted::nodes), inputs, counts);
 }
 
 std::uint32_t MetricTree::always_asked() const {
@@ -206,7 +218,7 @@ std::uint32_t MetricTree::always_asked() const {
 std::map<std::string, double> MetricTree::counters(const frame::FrameInputs& inputs) {
   const gpu::Texture of_pixels(gpu::Format::r32f, inputs.view.size);
   const auto total = [&](Counted counted) {
-    run(query_pass(counted), inputs, of_pixels);
+    run(query_pass(inputs.scene, counted), inputs, of_pixels);
     double sum = 0.0;
     for (const float of_pixel : of_pixels.read<float>()) sum += static_cast<double>(of_pixel);
     return sum;
@@ -231,7 +243,7 @@ frame::SurfaceMethod metric_tree_method() {
   };
   return frame::describe<frame::SurfaceShadow, Options>(
       "metric-tree", "clusters of triangles in a ternary metric tree of what the light sees of them, exact",
-      {.is_exact = true},
+      {.is_exact = true, .transmits = true},
       {frame::count_option<Options>({.name = "cluster",
                                      .meaning = "triangles of a cluster at most",
                                      .quality = "none",

@@ -2,12 +2,15 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "frame/method.h"
 #include "frame/screen_pass.h"
 #include "surface_shadows/culled_parts.h"
 #include "surface_shadows/occluders.h"
+#include "surface_shadows/transmission.h"
 
 namespace airlight::surface_shadows {
 
@@ -35,6 +38,9 @@ struct MetricTreeOptions {
 class MetricTree : public frame::SurfaceShadow {
  public:
   explicit MetricTree(const MetricTreeOptions& options);
+  gpu::Format visibility_format(const frame::SceneBuffers& scene) const override {
+    return transmission_format(scene);
+  }
   void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override;
   std::map<std::string, std::int64_t> bytes() const override;
   /// "surface_nodes" of the tree that pixels visit, "surface_clusters" and "surface_triangles" that they ask.
@@ -43,6 +49,14 @@ class MetricTree : public frame::SurfaceShadow {
   /// How many nodes each pixel visited, instead of visibility, of the tree that the last `query` made.
   /// @param counts r32f
   void count_nodes(const frame::FrameInputs& inputs, const gpu::Texture& counts);
+
+  /// Makes the tree for the light of `inputs`.
+  void build(const frame::FrameInputs& inputs);
+
+  // Of shaders that go down the tree (shaders/surface_shadows/metric_tree_walk.glsl):
+  std::vector<gpu::Constant> walk_constants(const frame::SceneBuffers& scene) const;
+  /// @param inputs as of `build`
+  void bind_walk(const frame::FrameInputs& inputs, const gpu::Pipeline& pipeline) const;
 
   /// Of the scene that the last `query` was of.
   std::uint32_t cluster_count() const { return cluster_count_; }
@@ -63,16 +77,17 @@ class MetricTree : public frame::SurfaceShadow {
   static Distances distances(const frame::FrameInputs& inputs, const LightScale& scale);
 
   void load(const frame::FrameInputs& inputs);
-  void build(const frame::FrameInputs& inputs);
+  void insert_clusters(const frame::FrameInputs& inputs);
   std::uint32_t write_light_view(const frame::FrameInputs& inputs) const;
   void run(const frame::ScreenPass& pass, const frame::FrameInputs& inputs, const gpu::Texture& image) const;
-  frame::ScreenPass query_pass(Counted counted) const;
+  frame::ScreenPass query_pass(const frame::SceneBuffers& scene, Counted counted) const;
 
   MetricTreeOptions options_;
   gpu::Pipeline cones_program_, insert_program_;
-  frame::ScreenPass query_;
+  std::optional<frame::ScreenPass> query_;  ///< of the scene
 
   std::uint64_t scene_ = 0;  ///< SceneBuffers::id
+  bool culls_ = false;
   std::uint32_t cluster_count_ = 0;
   double capsule_share_ = 0.0;
   CulledParts culled_parts_;

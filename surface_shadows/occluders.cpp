@@ -23,10 +23,7 @@ LightScale light_scale(const frame::FrameInputs& inputs) {
   return {std::ldexp(1.0f, exponent), static_cast<float>(std::ldexp(1.00001 * reach, exponent))};
 }
 
-Occluders::Occluders(Culling culling)
-    : culling_(culling),
-      program_(gpu::Pipeline::compute(
-          k_occluders_comp, std::array{gpu::Constant(0, culling == Culling::automatic ? 1u : 0u)})) {}
+Occluders::Occluders(Culling culling) : culling_(culling) {}
 
 void Occluders::load(const frame::FrameInputs& inputs) {
   const gpu::Limits& limits = inputs.context.limits();
@@ -36,7 +33,9 @@ void Occluders::load(const frame::FrameInputs& inputs) {
   corner_texels_ = {limits, corners_, gpu::Format::rgba32f, "the model's triangles"};
   scene_ = inputs.scene.id();
   count_ = inputs.scene.triangle_count();
-  if (culling_ == Culling::none) return;
+  culls_ = culls(culling_, inputs.scene);
+  program_ = gpu::Pipeline::compute(k_occluders_comp, std::array{gpu::Constant(0, culls_ ? 1u : 0u)});
+  if (!culls_) return;
 
   culled_parts_ = CulledParts(inputs);
   parts_ = gpu::Buffer::from(std::span<const std::uint32_t>(culled_parts_.of_triangle()));
@@ -48,7 +47,7 @@ void Occluders::build(const frame::FrameInputs& inputs) {
   scale_ = light_scale(inputs);
   if (count_ == 0) return;
 
-  if (culling_ == Culling::automatic) {
+  if (culls_) {
     culled_parts_.find(inputs, scale_.margin());
     culled_parts_.bind();
     part_texels_.bind_sampler(shaders::k_parts_unit);
@@ -66,6 +65,7 @@ void Occluders::build(const frame::FrameInputs& inputs) {
 void Occluders::bind(const frame::FrameInputs& inputs) const {
   corner_texels_.bind_sampler(shaders::k_occluders_unit);
   inputs.triangle_planes().bind_sampler(shaders::k_triangle_planes_unit);
+  if (inputs.scene.transmits()) inputs.scene.attenuations().bind_sampler(shaders::k_attenuations_unit);
 }
 
 }  // namespace airlight::surface_shadows

@@ -45,6 +45,7 @@ class Occluders {
   void load(const frame::FrameInputs& inputs);
 
   Culling culling_;
+  bool culls_ = false;  ///< of the scene: where light passes a part, both of its sides count
   gpu::Pipeline program_;
   std::uint64_t scene_ = 0;  ///< SceneBuffers::id
   std::uint32_t count_ = 0;

@@ -14,82 +14,95 @@
 
 namespace airlight::surface_shadows {
 
-frame::ScreenPass Psv::query_pass(bool counts) const {
-  return frame::ScreenPass(
-      k_psv_query_frag,
-      std::array{gpu::Constant(0, counts ? 1u : 0u), gpu::Constant(1, options_.wedge == Wedge::on ? 1u : 0u),
-                 gpu::Constant(2, static_cast<std::uint32_t>(options_.stack)),
-                 gpu::Constant(3, options_.traversal == Traversal::stackless ? 1u : 0u)});
+std::vector<gpu::Constant> Psv::walk_constants(const frame::SceneBuffers& scene) const {
+  return {gpu::Constant(31, options_.wedge == Wedge::on ? 1u : 0u),
+          gpu::Constant(32, static_cast<std::uint32_t>(options_.stack)),
+          gpu::Constant(33, options_.traversal == Traversal::stackless ? 1u : 0u),
+          transmission_constant(scene)};
+}
+
+frame::ScreenPass Psv::query_pass(const frame::SceneBuffers& scene, bool counts) const {
+  std::vector<gpu::Constant> constants = walk_constants(scene);
+  constants.emplace_back(0, counts ? 1u : 0u);
+  return frame::ScreenPass(k_psv_query_frag, constants);
 }
 
 Psv::Psv(const PsvOptions& options)
     : options_(options),
       occluders_(options.cull),
       planes_program_(gpu::Pipeline::compute(k_psv_planes_comp)),
-      insert_program_(gpu::Pipeline::compute(k_psv_insert_comp)),
-      query_(query_pass(false)) {}
+      insert_program_(gpu::Pipeline::compute(k_psv_insert_comp)) {}
 
-void Psv::build(const frame::FrameInputs& inputs) {
+void Psv::load(const frame::FrameInputs& inputs) {
   const std::uint32_t count = inputs.scene.triangle_count();
-  if (scene_ != inputs.scene.id()) {
-    const std::int64_t nodes = 4 * std::int64_t{count}, node = sizeof(glm::vec4);
-    const gpu::Limits& limits = inputs.context.limits();
-    gpu::require_storage_block(limits, node * (nodes + 1), "the tree of the model's triangles",
-                               k_storage_remedy);
-    std::vector<std::uint32_t> order(count);
-    std::iota(order.begin(), order.end(), 0u);
-    if (options_.order == InsertionOrder::random)
-      std::shuffle(order.begin(), order.end(), std::mt19937(static_cast<std::uint32_t>(options_.seed)));
-    order_ = gpu::Buffer::from(std::span<const std::uint32_t>(order));
-    planes_ = gpu::Buffer(node * nodes);
-    links_ = gpu::Buffer(node * (nodes + 1));
-    subtrees_ = gpu::Buffer(std::int64_t{2 * sizeof(std::uint32_t)} * count);
-    order_texels_ = {limits, order_, gpu::Format::r32ui, "the model's triangles"};
-    plane_texels_ = {limits, planes_, gpu::Format::rgba32f, "the tree of the model's triangles"};
-    link_texels_ = {limits, links_, gpu::Format::rgba32ui, "the tree of the model's triangles"};
-    subtree_texels_ = {limits, subtrees_, gpu::Format::r32ui, "the tree of the model's triangles"};
-    scene_ = inputs.scene.id();
-  }
-  occluders_.build(inputs);
-  if (count == 0) return;
-  occluders_.bind(inputs);
-  planes_.bind_storage(shaders::k_tree_planes_storage);
-  links_.bind_storage(shaders::k_tree_links_storage);
-  planes_program_.set(0, count);
-  planes_program_.set(1, occluders_.reach());
-  subtrees_.bind_storage(shaders::k_subtrees_storage);
-  planes_program_.dispatch({count, 1, 1});
-
-  order_texels_.bind_sampler(shaders::k_insertion_order_unit);
-  plane_texels_.bind_sampler(shaders::k_tree_planes_unit);
-  insert_program_.set(0, count);
-  insert_program_.set(1, occluders_.reach());
-  insert_program_.dispatch({count, 1, 1});
+  const std::int64_t nodes = 4 * std::int64_t{count}, node = sizeof(glm::vec4);
+  const gpu::Limits& limits = inputs.context.limits();
+  gpu::require_storage_block(limits, node * (nodes + 1), "the tree of the model's triangles",
+                             k_storage_remedy);
+  query_.emplace(query_pass(inputs.scene, false));
+  std::vector<std::uint32_t> order(count);
+  std::iota(order.begin(), order.end(), 0u);
+  if (options_.order == InsertionOrder::random)
+    std::shuffle(order.begin(), order.end(), std::mt19937(static_cast<std::uint32_t>(options_.seed)));
+  order_ = gpu::Buffer::from(std::span<const std::uint32_t>(order));
+  planes_ = gpu::Buffer(node * nodes);
+  links_ = gpu::Buffer(node * (nodes + 1));
+  subtrees_ = gpu::Buffer(std::int64_t{2 * sizeof(std::uint32_t)} * count);
+  order_texels_ = {limits, order_, gpu::Format::r32ui, "the model's triangles"};
+  plane_texels_ = {limits, planes_, gpu::Format::rgba32f, "the tree of the model's triangles"};
+  link_texels_ = {limits, links_, gpu::Format::rgba32ui, "the tree of the model's triangles"};
+  subtree_texels_ = {limits, subtrees_, gpu::Format::r32ui, "the tree of the model's triangles"};
+  scene_ = inputs.scene.id();
 }
 
-void Psv::run(const frame::ScreenPass& pass, const frame::FrameInputs& inputs,
-              const gpu::Texture& image) const {
+void Psv::build(const frame::FrameInputs& inputs) {
+  inputs.triangle_planes();  // a stage of its own
+  inputs.timer.time("surface_build", [&] {
+    if (scene_ != inputs.scene.id()) load(inputs);
+    const std::uint32_t count = inputs.scene.triangle_count();
+    occluders_.build(inputs);
+    if (count == 0) return;
+    occluders_.bind(inputs);
+    planes_.bind_storage(shaders::k_tree_planes_storage);
+    links_.bind_storage(shaders::k_tree_links_storage);
+    planes_program_.set(0, count);
+    planes_program_.set(1, occluders_.reach());
+    subtrees_.bind_storage(shaders::k_subtrees_storage);
+    planes_program_.dispatch({count, 1, 1});
+
+    order_texels_.bind_sampler(shaders::k_insertion_order_unit);
+    plane_texels_.bind_sampler(shaders::k_tree_planes_unit);
+    insert_program_.set(0, count);
+    insert_program_.set(1, occluders_.reach());
+    insert_program_.dispatch({count, 1, 1});
+  });
+}
+
+void Psv::bind_walk(const frame::FrameInputs& inputs, const gpu::Pipeline& pipeline) const {
   occluders_.bind(inputs);
   plane_texels_.bind_sampler(shaders::k_tree_planes_unit);
   link_texels_.bind_sampler(shaders::k_tree_links_unit);
   subtree_texels_.bind_sampler(shaders::k_subtrees_unit);
+  pipeline.set(1, occluders_.scale());
+  pipeline.set(2, occluders_.reach());
+}
+
+void Psv::run(const frame::ScreenPass& pass, const frame::FrameInputs& inputs,
+              const gpu::Texture& image) const {
+  bind_walk(inputs, pass.pipeline());
   inputs.surface_points().bind_sampler(shaders::k_surface_unit);
   inputs.triangles.bind_sampler(shaders::k_triangle_unit);
-  pass.pipeline().set(0, occluders_.scale());
-  pass.pipeline().set(1, occluders_.reach());
   pass.run({image});
 }
 
 void Psv::query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) {
-  // Stages of their own.
-  inputs.surface_points();
-  inputs.triangle_planes();
-  inputs.timer.time("surface_build", [&] { build(inputs); });
-  inputs.timer.time("surface_query", [&] { run(query_, inputs, visibility); });
+  inputs.surface_points();  // a stage of its own
+  build(inputs);
+  inputs.timer.time("surface_query", [&] { run(*query_, inputs, visibility); });
 }
 
 void Psv::count_nodes(const frame::FrameInputs& inputs, const gpu::Texture& counts) {
-  run(query_pass(true), inputs, counts);
+  run(query_pass(inputs.scene, true), inputs, counts);
 }
 
 std::map<std::string, double> Psv::counters(const frame::FrameInputs& inputs) {
@@ -109,7 +122,7 @@ frame::SurfaceMethod psv_method() {
   using Options = PsvOptions;
   return frame::describe<frame::SurfaceShadow, Options>(
       "psv", "partitioned shadow volumes: a ternary tree over the triangles' shadows, exact",
-      {.is_exact = true},
+      {.is_exact = true, .transmits = true},
       {culling_option(&Options::cull),
        frame::word_option<Options, Wedge>(
            {.name = "wedge",

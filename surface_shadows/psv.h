@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "frame/method.h"
 #include "frame/screen_pass.h"
 #include "surface_shadows/occluders.h"
+#include "surface_shadows/transmission.h"
 
 namespace airlight::surface_shadows {
 
@@ -33,6 +35,9 @@ struct PsvOptions {
 class Psv : public frame::SurfaceShadow {
  public:
   explicit Psv(const PsvOptions& options);
+  gpu::Format visibility_format(const frame::SceneBuffers& scene) const override {
+    return transmission_format(scene);
+  }
   void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override;
   std::map<std::string, std::int64_t> bytes() const override;
   /// "surface_nodes" of the tree that pixels visit.
@@ -42,16 +47,24 @@ class Psv : public frame::SurfaceShadow {
   /// @param counts r32f
   void count_nodes(const frame::FrameInputs& inputs, const gpu::Texture& counts);
 
- private:
+  /// Makes the tree for the light of `inputs`.
   void build(const frame::FrameInputs& inputs);
+
+  // Of shaders that go down the tree (shaders/surface_shadows/psv_walk.glsl):
+  std::vector<gpu::Constant> walk_constants(const frame::SceneBuffers& scene) const;
+  /// @param inputs as of `build`
+  void bind_walk(const frame::FrameInputs& inputs, const gpu::Pipeline& pipeline) const;
+
+ private:
+  void load(const frame::FrameInputs& inputs);
   void run(const frame::ScreenPass& pass, const frame::FrameInputs& inputs, const gpu::Texture& image) const;
-  frame::ScreenPass query_pass(bool counts) const;
+  frame::ScreenPass query_pass(const frame::SceneBuffers& scene, bool counts) const;
 
   PsvOptions options_;
   Occluders occluders_;
   gpu::Pipeline planes_program_, insert_program_;
-  frame::ScreenPass query_;
-  std::uint64_t scene_ = 0;  ///< SceneBuffers::id
+  std::optional<frame::ScreenPass> query_;  ///< of the scene
+  std::uint64_t scene_ = 0;                 ///< SceneBuffers::id
   gpu::Buffer order_, planes_, links_, subtrees_;
   gpu::TexelView order_texels_, plane_texels_, link_texels_, subtree_texels_;
 };

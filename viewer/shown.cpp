@@ -71,6 +71,7 @@ std::string command_of(const SceneName& scene, const Shown& shown, const std::st
   if (scene.triangles) add("triangles", *scene.triangles);
   if (scene.albedo) add("albedo", *scene.albedo);
   if (scene.looks) add("looks", *scene.looks);
+  if (scene.occluders) add("occluders", *scene.occluders);
   scene::for_each_value_of_view(
       shown.view, [&](std::string_view, const scene::FieldInfo& field, const scene::FieldValue& value) {
         add(field.name, scene::text_of(value));

@@ -26,6 +26,7 @@ struct SceneName {
   std::optional<std::string> triangles{};  ///< --triangles
   std::optional<std::string> albedo{};     ///< --albedo
   std::optional<std::string> looks{};      ///< --looks
+  std::optional<std::string> occluders{};  ///< --occluders
 };
 
 /// METHOD:key=value of a choice, without the keys whose values are the default.

@@ -417,9 +417,11 @@ void Viewer::judge_surfaces() {
   const frame::FrameImages images = left_.frame(0).read();
   const frame::SurfacePoints points = left_.surface_points(0);
   quality::SharedReference reference(scene_.geometry, shown_.view, {});
+  quality::SharedReference* opaque = reference.taken_opaque();
+  quality::SharedReference& judge = opaque && images.transmittance.empty() ? *opaque : reference;
   std::vector<quality::SurfaceVerdicts> verdicts;
   for (std::size_t light = 0; light < shown_.view.lights.size(); ++light)
-    verdicts.push_back(reference.verdicts(light, points));
+    verdicts.push_back(judge.verdicts(light, points));
   std::vector<glm::vec4> colours;
   for (const glm::vec3& colour : quality::surface_colours(images, verdicts))
     colours.emplace_back(glm::sqrt(colour), 1.0f);  // nearly as the screen has them
@@ -658,7 +660,10 @@ void Viewer::save_picture() {
                            .renderer = context_.device().renderer,
                            .command = command()};
     const std::pair<const char*, const std::optional<std::string>&> model_options[] = {
-        {"albedo", name_.albedo}, {"looks", name_.looks}, {"triangles", name_.triangles}};
+        {"albedo", name_.albedo},
+        {"looks", name_.looks},
+        {"occluders", name_.occluders},
+        {"triangles", name_.triangles}};
     for (const auto& [name, value] : model_options)
       if (value) making.model_options[name] = *value;
     quality::write_frame(file, images, quality::metadata_of(making, shown_.view));

@@ -12,6 +12,7 @@ layout(binding = k_light_texture_unit) uniform sampler2D light_texture;
 layout(binding = k_shading_normal_unit) uniform sampler2D shading_normal_image;
 layout(constant_id = 0) const uint k_light_textured = 0;
 layout(constant_id = 2) const uint k_has_normals = 0;
+layout(constant_id = 3) const uint k_glows = 0;  // light that reaches a surface's other side is what it lets through
 layout(location = 0) out vec4 radiance;
 layout(location = 1) out vec4 airlight;  // where that of several lights is summed
 
@@ -37,6 +38,12 @@ void main() {
     vec2 seen_part = part_in_medium(medium, direction.y, distance);
     float path = max(seen_part.y - seen_part.x, 0.0) + light_path(medium, light, point);
     vec3 albedo = seen_colour(pixel, seen);
+    if (k_glows != 0u) {
+      if (cosine < 0.0) {
+        cosine = -cosine;
+        albedo = vec3(1.0);
+      }
+    }
     vec3 colour = k_light_textured != 0u ? light_colour(light_texture, -way) : vec3(1.0);
     colour *= cone_share(light, -way / max(r, 1e-30)) * range_share(light, r);
     // A sun's `way` is of unit length.

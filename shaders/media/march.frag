@@ -9,7 +9,7 @@
 layout(binding = k_surface_unit) uniform sampler2D surface_image;
 layout(location = 0) out vec4 airlight;
 
-bool is_lit_along(MediumRay ray, float t, float phi) { return is_lit(t * ray.direction); }
+vec3 light_along(MediumRay ray, float t, float phi) { return vec3(is_lit(t * ray.direction) ? 1.0 : 0.0); }
 
 void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy);

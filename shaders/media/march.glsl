@@ -1,5 +1,5 @@
-// Airlight by look-ups along each view ray: a step counts with all of its light or none, as one point of it is
-// lit or not. The light of a lamp's step is the integrand in φ at its middle times its length in φ, in which 1/r² has gone; steps
+// Airlight by look-ups along each view ray: a step counts with the share of its light that arrives at one point of it, mostly all
+// or none. The light of a lamp's step is the integrand in φ at its middle times its length in φ, in which 1/r² has gone; steps
 // that are wide in φ are cut, and with k_rough, where the integrand may change within any, all are. A sun's step has a closed form.
 // GLSL only.
 #include "media/medium_ray.glsl"
@@ -16,8 +16,8 @@ const uint k_gathered = 2u;
 // The number of steps, and how far the scene reaches from the eye, a float's bits [m].
 layout(location = 0) uniform uvec2 march;
 
-// What is looked up: whether the light reaches the point of a ray at the distance t [m], where φ is `phi`.
-bool is_lit_along(MediumRay ray, float t, float phi);
+// What is looked up: the share of the light, RGB, that reaches the point of a ray at the distance t [m], where φ is `phi`.
+vec3 light_along(MediumRay ray, float t, float phi);
 
 // [rad]; steps of a march of 32 or more by angle are narrower.
 const float k_wide = 0.1;
@@ -30,7 +30,8 @@ vec3 sun_airlight(MediumRay ray, float offset) {
   for (uint i = 0u; i < march.x; ++i) {
     float to = place_of_step(steps, float(i + 1u));
     float at = place_of_step(steps, float(i) + offset);
-    if (is_lit_along(ray, at, phi_at(space, ray.angle, at))) integral += integrate_sun_run(medium, sun, from, to);
+    vec3 share = light_along(ray, at, phi_at(space, ray.angle, at));
+    if (share != vec3(0.0)) integral += share * integrate_sun_run(medium, sun, from, to);
     from = to;
   }
   return sun_scale(light, medium, k_phase, ray.alpha) * integral;
@@ -69,7 +70,8 @@ vec3 lamp_airlight(MediumRay ray, float offset) {
       at = place_of_step(steps, float(i) + offset);
       phi = phi_at(space, ray.angle, at);
     }
-    if (is_lit_along(ray, at, phi)) sum += integrate_step(view, from, to);
+    vec3 share = light_along(ray, at, phi);
+    if (share != vec3(0.0)) sum += share * integrate_step(view, from, to);
     from = to;
   }
   return airlight_scale(space, light, medium, ray.angle.sine) * sum;

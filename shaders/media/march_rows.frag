@@ -7,12 +7,12 @@
 // memory. What the row cannot tell of this ray is known as of a volume's.
 VsvRay row;
 
-bool is_lit_along(MediumRay ray, float t, float phi) {
+vec3 light_along(MediumRay ray, float t, float phi) {
   float cell = floor(cell_of_phi(row.cells, phi));
   bool is_in_row = cell >= 0.0 && cell < float(k_phi_count);
   uint k = uint(clamp(cell, 0.0, float(k_phi_count) - 1.0));
   bool is_shadowed = int(k) > row.last_valid ? row.beyond_valid != 0u : is_dark(row.plane, row.row, k);
-  return !is_in_row || !is_shadowed;
+  return vec3(!is_in_row || !is_shadowed ? 1.0 : 0.0);
 }
 
 void main() {

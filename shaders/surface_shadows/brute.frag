@@ -2,20 +2,25 @@
 #extension GL_GOOGLE_include_directive : require
 #include "frame/uniforms.glsl"
 #include "surface_shadows/occluders.glsl"
+#include "surface_shadows/transmission.glsl"
 
-// Asks the predicate of every triangle.
-layout(binding = k_triangle_unit) uniform usampler2D triangle_plus_one;
-layout(binding = k_surface_unit) uniform sampler2D surface_points;
-layout(location = 0) uniform uint triangle_count;
+// Asks every triangle.
 layout(location = 1) uniform float scale;
-layout(location = 0) out float visibility;
+layout(location = 2) uniform uint triangle_count;
+layout(location = 0) out vec4 visibility;
 
-void main() {
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
-  vec4 point = texelFetch(surface_points, pixel, 0);
-  visibility = 0.0;
-  if (point.w > 0.0) {
-    uint own_plane = plane_of(texelFetch(triangle_plus_one, pixel, 0).r - 1u);
-    visibility = any_hides_surface(light_rays(), triangle_count, scale * point.xyz, own_plane) ? 0.0 : 1.0;
-  }
+void pass_own(uint number, vec3 point) {
+  pass_through(light_rays(), occluder(number), texelFetch(attenuations, int(number)), point);
 }
+
+vec3 light_at(vec3 point, uint own_plane) {
+  begin_point();
+  LightRays rays = light_rays();
+  for (uint triangle = 0u; triangle < triangle_count && !is_hidden; ++triangle)
+    if (least_distance_of(triangle) >= 0.0) meet(rays, occluder(triangle), triangle, point, plane_of(triangle) == own_plane);
+  return light_left();
+}
+
+#include "surface_shadows/surface_query.glsl"
+
+void main() { visibility = vec4(light_at_surface(ivec2(gl_FragCoord.xy)), 1.0); }

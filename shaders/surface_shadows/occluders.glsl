@@ -17,16 +17,3 @@ Occluder occluder(uint triangle) {
 float least_distance_of(uint triangle) { return texelFetch(occluders, 3 * int(triangle)).w; }
 
 uint plane_of(uint triangle) { return texelFetch(triangle_planes, int(triangle)).r; }
-
-// Whether a triangle hides a point of a surface from the light. What lies in the surface's own plane does not.
-bool hides_surface(LightRays rays, uint triangle, vec3 point, uint own_plane) {
-  return hides(rays, occluder(triangle), point) && plane_of(triangle) != own_plane;
-}
-
-// Whether any triangle does: each is asked, until one does.
-bool any_hides_surface(LightRays rays, uint triangle_count, vec3 point, uint own_plane) {
-  bool is_hidden = false;
-  for (uint triangle = 0u; triangle < triangle_count && !is_hidden; ++triangle)
-    if (least_distance_of(triangle) >= 0.0) is_hidden = hides_surface(rays, triangle, point, own_plane);
-  return is_hidden;
-}

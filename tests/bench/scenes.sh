@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The figures of README.md and docs/figures.md:
-# `tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|quadrature|lights|curves|cost|leaks|causes|path|rivals|rows|flicker|bits-or-tree [OUT]`.
+# `tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|quadrature|lights|curves|cost|leaks|causes|path|rivals|rows|flicker|bits-or-tree|trees|surfaces [OUT]`.
 # The paper's Tables 2 to 4 and the bandwidth: build/release/tests/bench/airlight_tables, after ./test.
 #
 # truth     the exact reference against itself refined, against rays, 256×256 and 512×512 pixels
@@ -20,6 +20,8 @@
 # rows          march by look-ups of the shadow map and of rows of light rays, 1024×1024: sweeps
 # flicker       vsv and its rivals along three paths, 512×512: sweeps, and what leads at which error and flicker
 # bits-or-tree  vsv by bits and by the tree, over the counts of φ, 512×512: a sweep each
+# trees         tree-march against march and vsv, 512×512, and in coloured light, 256×144: sweeps
+# surfaces      every surface method, 512×512: time, bytes, wrong and undecided pixels
 # The models are not part of the project: AIRLIGHT_SHARED is the folder that holds scenes/ (default ../shared).
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -36,6 +38,7 @@ declare -A view=(
   [arboretum]="$scenes/arboretum_1644k.glb --eye=-8,3,34 --target 13,5,10 --fov 55 --light-position 18,9,2
     --intensity 1500 --sigma-s 0.03"
   [toroid]=toroid
+  [chapel]=chapel
   [sun_sponza]="$scenes/sponza_262k.glb --eye=-12,3,-0.5 --target 0,5,0 --fov 60 --sun 0.35,1,0.15 --irradiance 10
     --fog-top 16 --sigma-s 0.04 --sigma-a 0.01"
   [sun_court]="$scenes/sponza_262k.glb --eye=-10,2,0.5 --target 0,6,0 --fov 60 --sun 0.9,0.6,0.05 --irradiance 10
@@ -231,8 +234,23 @@ case ${1:-} in
         --volume 'vsv:query={bits,tree}:phi={128,512,1024,2048,4096}'
     done
     ;;
+  trees)
+    for scene in window sponza maple; do
+      sweep "$scene" --size 512x512 --surface none --frames 2 -o "$out/trees_$scene" --quiet \
+        --volume 'vsv:phi={256,512},vsv:where=epipolar:phi=256,march:where=epipolar:steps={16,64,256},tree-march:tree={psv,metric-tree}:where=epipolar:steps={16,64,256},march:steps=16,tree-march:tree={psv,metric-tree}:steps=16'
+      ./run front "$out/trees_$scene"
+    done
+    sweep chapel --size 256x144 --surface none --frames 2 -o "$out/trees_chapel" --quiet \
+      --volume 'tree-march:tree={psv,metric-tree}:where=epipolar:steps={16,64,256,512},tree-march:steps=64'
+    ;;
+  surfaces)
+    for scene in window sponza fence maple toroid chapel; do
+      compare "$scene" --size 512x512 -o "$out/surfaces_$scene" --volume none --frames 3 --quiet \
+        --surface shadow-map,psv,psv:cull=auto,metric-tree,metric-tree:cull=auto,reference
+    done
+    ;;
   *)
-    echo "usage: tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|quadrature|lights|curves|cost|leaks|causes|path|rivals|rows|flicker|bits-or-tree [OUT]" >&2
+    echo "usage: tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|quadrature|lights|curves|cost|leaks|causes|path|rivals|rows|flicker|bits-or-tree|trees|surfaces [OUT]" >&2
     exit 2
     ;;
 esac

@@ -214,8 +214,8 @@ TEST_F(Commands, ImageMeasuresImages) {
 TEST_F(Commands, ScenesListsEveryBuiltinScene) {
   const Result result = airlight({"scenes"});
   EXPECT_EQ(result.exit_code, 0);
-  for (const char* name : {"window", "nave", "fence", "forest", "jali", "lighthouse", "harbour", "spheres",
-                           "toroid", "cornell", "empty", "half-space", "sphere"}) {
+  for (const char* name : {"window", "nave", "fence", "forest", "jali", "chapel", "lighthouse", "harbour",
+                           "spheres", "toroid", "cornell", "empty", "half-space", "sphere"}) {
     EXPECT_THAT(result.out, HasSubstr(name));
   }
   EXPECT_THAT(result.err, IsEmpty());

@@ -182,7 +182,7 @@ class BitsOf {
       : n_(n),
         axes_(make_axes(glm::normalize(view.lights[0].position - view.camera.eye))),
         D_(glm::distance(view.lights[0].position, view.camera.eye)),
-        triangles_{scene.geometry.positions, scene.geometry.triangles},
+        triangles_(scene.geometry),
         exact_(triangles_, view.lights[0].position, view.camera.eye) {
     tests::look_into_frame(scene.geometry, view, shadow_map_size, [&](const frame::FrameInputs& inputs) {
       ShadowVolume volume(inputs.context.limits(), {.resolution = n, .ranges = Ranges::alpha_phi});

@@ -45,7 +45,7 @@ TEST_P(ShadowMapOf, HoldsTheDistancesOfRaysThroughItsTexels) {
     shaders::LightBlock light;
     glGetNamedBufferSubData(static_cast<GLuint>(block), 0, sizeof light, &light);
     // Rays from the light: what is the light elsewhere is here any other point.
-    const reference::Triangles triangles{scene.geometry.positions, scene.geometry.triangles};
+    const reference::Triangles triangles(scene.geometry);
     const reference::Visibility exact(triangles, view.camera.eye, view.lights[0].position);
     std::size_t at = 0, hits = 0, wrong = 0;
     std::vector<double> differences;

@@ -123,7 +123,7 @@ TEST_P(WallCutInHalf, CastsItsShadowOnFogAndSurfaces) {
 
 TEST_P(WallCutInHalf, IsJudgedSo) {
   const auto judged = [&](const scene::Geometry& geometry, glm::vec3 at) {
-    const Triangles triangles{geometry.positions, geometry.triangles, CutOuts(geometry)};
+    const Triangles triangles(geometry);
     const glm::dvec3 origin = GetParam() ? view().camera.eye : view().lights[0].position;
     const auto floor = static_cast<std::uint32_t>(geometry.triangles.size() - 1);
     return SurfaceJudge(triangles, view().lights[0], view().camera.eye)

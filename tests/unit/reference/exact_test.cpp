@@ -168,7 +168,7 @@ TEST(ShadowIntervals, OfATriangleInTheHalfPlaneAreThoseOfAnInfinitelyNearRay) {
     const glm::vec3 lower(std::min(side, 0.0), 1, -1), upper(std::max(side, 0.0), 1.5f, 0.5f);
     tests::add_box(box, lower, upper);
     std::vector<Corners> triangles;
-    const Triangles of_box{box.positions, box.triangles};
+    const Triangles of_box(box);
     for (std::uint32_t i = 0; i < of_box.count(); ++i) triangles.push_back(of_box.around({0, 0, 0}, i));
     const std::vector<ZRange> ranges = lit_ranges(level_ray(-4, 10), triangles);
     if (side > 0.0) {
@@ -183,7 +183,7 @@ TEST(ShadowIntervals, OfATriangleInTheHalfPlaneAreThoseOfAnInfinitelyNearRay) {
 std::vector<Corners> sphere_of_corners(double radius, int rings) {
   scene::Geometry sphere;
   tests::add_sphere(sphere, {0, 0, 0}, static_cast<float>(radius), rings);
-  const Triangles triangles{sphere.positions, sphere.triangles};
+  const Triangles triangles(sphere);
   std::vector<Corners> corners;
   for (std::uint32_t i = 0; i < triangles.count(); ++i) corners.push_back(triangles.around({0, 0, 0}, i));
   return corners;
@@ -237,7 +237,7 @@ TEST(ShadowIntervals, ASpikySurfaceAroundTheLightLeaksNothing) {
 /// The image with every triangle looked at for every pixel.
 std::vector<glm::vec3> without_hierarchy(const scene::Geometry& geometry, const scene::View& view) {
   const glm::dvec3 light = view.lights[0].position;
-  const Triangles triangles{geometry.positions, geometry.triangles};
+  const Triangles triangles(geometry);
   Occluders occluders;
   for (std::uint32_t i = 0; i < triangles.count(); ++i) occluders.add(triangles.around(light, i));
   const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);

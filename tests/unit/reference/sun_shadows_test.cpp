@@ -68,7 +68,7 @@ TEST(SunShadowIntervals, AClosedSurfaceAroundTheRayLeaksNothing) {
   // Every other half-plane holds an edge of the sphere, or passes through a corner.
   scene::Geometry mesh;
   tests::add_sphere(mesh, {0, 0, 0}, 1.0f, 24);
-  const Triangles sphere{mesh.positions, mesh.triangles};
+  const Triangles sphere(mesh);
   Random random(3);
   ShadowIntervals shadows;
   for (int trial = 0; trial < 2000; ++trial) {
@@ -223,7 +223,7 @@ TEST(SunOccluders, RaysConvergeToTheTruth) {
 /// The image with every triangle looked at for every pixel.
 AirlightImage without_hierarchy(const scene::Geometry& geometry, const scene::View& view) {
   const glm::dvec3 sun = view.lights[0].towards;
-  const Triangles triangles{geometry.positions, geometry.triangles};
+  const Triangles triangles(geometry);
   Occluders occluders(sun);
   for (std::uint32_t i = 0; i < triangles.count(); ++i) occluders.add(triangles.around(view.camera.eye, i));
   const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);

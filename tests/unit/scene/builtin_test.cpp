@@ -97,8 +97,8 @@ std::size_t parts_inside_out(const Geometry& geometry) {
 TEST(Builtin, NamesAreKnownAndTheWindowIsTheDefault) {
   std::vector<std::string> names;
   for (const BuiltinScene& scene : builtin_scenes()) names.emplace_back(scene.name);
-  EXPECT_THAT(names, ElementsAre("window", "nave", "fence", "forest", "jali", "lighthouse", "harbour",
-                                 "spheres", "toroid", "cornell", "empty", "half-space", "sphere"));
+  EXPECT_THAT(names, ElementsAre("window", "nave", "fence", "forest", "jali", "chapel", "lighthouse",
+                                 "harbour", "spheres", "toroid", "cornell", "empty", "half-space", "sphere"));
   for (const std::string& name : names) {
     ASSERT_NE(find_builtin(name), nullptr);
     EXPECT_EQ(find_builtin(name)->name, name);
@@ -142,8 +142,9 @@ TEST_P(EachBuiltin, IsCompleteAndKeepsTheContractOfGeometry) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Builtin, EachBuiltin,
-                         testing::Values("window", "nave", "fence", "forest", "jali", "lighthouse", "harbour",
-                                         "spheres", "toroid", "cornell", "empty", "half-space", "sphere"),
+                         testing::Values("window", "nave", "fence", "forest", "jali", "chapel", "lighthouse",
+                                         "harbour", "spheres", "toroid", "cornell", "empty", "half-space",
+                                         "sphere"),
                          [](const auto& test) {
                            std::string name = test.param;
                            std::erase(name, '-');

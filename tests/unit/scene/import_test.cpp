@@ -518,7 +518,9 @@ TEST_F(ImportGltf, WarnsOfWhatItLeavesOutWithCounts) {
                  }));
   expect_warning("light of emissive materials ignored (1)", with_material({{"emissiveFactor", {0, 1, 0}}}));
   expect_warning("alpha masks of materials ignored (1)", with_material({{"alphaMode", "MASK"}}));
-  expect_warning("transparency of materials ignored (1)", with_material({{"alphaMode", "BLEND"}}));
+  expect_warning("textures of transparent materials ignored (1)",
+                 with_material({{"alphaMode", "BLEND"},
+                                {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}));
   expect_warning("transmission of materials ignored (1)",
                  with_material({{"extensions", {{"KHR_materials_transmission", json::object()}}}}));
   expect_warning("morph targets of primitives ignored (1)", changed([](json& d) {

@@ -1,0 +1,5 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "media/medium_ray.glsl"
+#include "surface_shadows/psv_walk.glsl"
+#include "media/tree_march.glsl"
