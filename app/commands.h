@@ -19,6 +19,10 @@ void compare(const Options& options);
 /// Measures every setting that is asked for and not yet there: see quality::sweep.
 void sweep(const Options& options);
 
+/// Finds the least that a scene needs: see quality::tune.
+/// @throws scene::Error (threshold_missed) after all is said, where no setting reaches the goal
+void tune(const Options& options);
+
 /// Tells what sweeps have measured: see quality::read_fronts.
 void front(const Options& options);
 

@@ -54,7 +54,7 @@ CLI::App& add_image_command(CLI::App& app, Options& options, const char* name, c
 /// be.
 /// @returns Options::given
 std::vector<std::pair<std::string, std::string>> read_words(const CLI::App& app, int argc, char** argv) {
-  constexpr const char* k_commands = "use view, render, compare, sweep, front, image, scenes or info";
+  constexpr const char* k_commands = "use view, render, compare, sweep, tune, front, image, scenes or info";
   if (argc < 2) throw Error(ExitCode::usage, "command line", "it names no command", k_commands);
   if (argv[1][0] == '-') {
     if (app.get_option_no_throw(argv[1])) return {};
@@ -183,6 +183,25 @@ int run(int argc, char** argv) {
   sweep_command.footer(quality::method_help());
   compare_command.footer(quality::method_help());
 
+  CLI::App& tune_command = add_image_command(
+      app, options, "tune",
+      "finds the setting that reaches a goal with the least: a command, a shot's lines, constants");
+  add_option(tune_command,
+             {"max-error", "X", "goal: the least time with a same-surface rrmse not above X, as in 0.01"});
+  add_option(tune_command, {"max-ms", "T", "goal: the least error with frames of not more than T ms"});
+  add_option(tune_command,
+             {"max-bytes", "B", "goal: the least error with not more than B bytes of GPU memory"});
+  add_option(tune_command, {"volume", "LIST",
+                            "methods of airlight to choose from, separated by commas, with values in braces "
+                            "as of sweep (default: all that "
+                            "are judged, with the values that they call worth sweeping)"});
+  add_option(tune_command, {"surface", "METHOD", "surface shadow (default: shadow-map)"});
+  add_option(tune_command, {"frames", "N", "frames timed of those that are nearly the best (default: 7)"});
+  add_option(tune_command, {"json", "FILE",
+                            "write what was found there too; - means standard output, instead of the text"});
+  tune_command.add_flag("--explain", options.explain, "also say what each knob of what was found is worth");
+  tune_command.footer(quality::method_help());
+
   CLI::App& front_command = *app.add_subcommand(
       "front", "for each error the cheapest method and setting of what sweep has measured");
   front_command.add_option("DIR", options.places, "folders that sweep has written, or .jsonl files")
@@ -241,6 +260,9 @@ int run(int argc, char** argv) {
   } else if (sweep_command.parsed()) {
     require_scene("airlight sweep window --all -o out/sweep");
     sweep(options);
+  } else if (tune_command.parsed()) {
+    require_scene("airlight tune window --max-error 0.01");
+    tune(options);
   } else if (front_command.parsed()) {
     front(options);
   } else if (image_command.parsed()) {

@@ -241,16 +241,23 @@ void require_read(const Options& options, std::span<const quality::VolumeChoice>
   quality::require_read(given, volumes, surfaces);
 }
 
-void show_transmission(const Options& options, const Subject& subject,
-                       std::vector<quality::VolumeChoice>& volumes,
-                       std::vector<quality::SurfaceChoice>& surfaces) {
-  if (!scene::transmits(subject.scene.geometry)) return;
-  // Few rays, since each step asks a tree.
-  if (!options.get("volume"))
-    volumes = parse_volumes(options, scene::transmits_by_incidence(subject.scene.geometry)
-                                         ? "none"
-                                         : "tree-march:where=epipolar:steps=64");
-  if (!options.get("surface")) surfaces = quality::parse_surfaces("psv", common_method_options(options));
+void take_usual_methods(const Options& options, const Subject& subject,
+                        std::vector<quality::VolumeChoice>& volumes,
+                        std::vector<quality::SurfaceChoice>& surfaces, int& shadow_map) {
+  scene::UsualMethods usual = subject.scene.methods;
+  if (scene::transmits(subject.scene.geometry)) {
+    // Few rays, since each step asks a tree.
+    if (usual.volume.empty())
+      usual.volume = scene::transmits_by_incidence(subject.scene.geometry)
+                         ? "none"
+                         : "tree-march:where=epipolar:steps=64";
+    if (usual.surface.empty()) usual.surface = "psv";
+  }
+  const std::vector<quality::CommonOption> common = common_method_options(options);
+  if (!usual.volume.empty() && !options.get("volume")) volumes = quality::parse_volumes(usual.volume, common);
+  if (!usual.surface.empty() && !options.get("surface"))
+    surfaces = quality::parse_surfaces(usual.surface, common);
+  if (usual.shadow_map && !options.get("shadow-map")) shadow_map = *usual.shadow_map;
   require_read(options, volumes, surfaces);
 }
 

@@ -35,8 +35,9 @@ struct Options {
   std::vector<std::string> places;  ///< DIR of `front`, words of `image`
   std::string output;               ///< -o; empty without
   bool quiet = false;
-  bool debug = false;  ///< of `compare`
-  bool all = false;    ///< of `sweep`
+  bool debug = false;    ///< of `compare`
+  bool all = false;      ///< of `sweep`
+  bool explain = false;  ///< of `tune`
 
   /// Of an option that is no light's.
   std::optional<std::string> get(std::string_view name) const {
@@ -73,11 +74,12 @@ std::vector<quality::CommonOption> common_method_options(const Options& options)
 std::vector<quality::VolumeChoice> parse_volumes(const Options& options, std::string_view usual);
 std::vector<quality::SurfaceChoice> parse_surfaces(const Options& options);
 
-/// Where light passes triangles, takes methods that show it for those that the user did not choose.
-/// @throws scene::Error (usage) as require_read
-void show_transmission(const Options& options, const Subject& subject,
-                       std::vector<quality::VolumeChoice>& volumes,
-                       std::vector<quality::SurfaceChoice>& surfaces);
+/// Takes the methods that the scene is best shown by, or where light passes its triangles such as show that,
+/// for those that the user did not choose.
+/// @throws scene::Error (usage) as parse_volumes and require_read
+void take_usual_methods(const Options& options, const Subject& subject,
+                        std::vector<quality::VolumeChoice>& volumes,
+                        std::vector<quality::SurfaceChoice>& surfaces, int& shadow_map);
 
 /// @throws scene::Error (usage) for an option given that is meant for methods and that none of these reads
 void require_read(const Options& options, std::span<const quality::VolumeChoice> volumes,

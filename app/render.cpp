@@ -120,13 +120,13 @@ void render(const Options& options) {
   auto volumes = parse_volumes(options, "vsv");
   auto surfaces = parse_surfaces(options);
   require_read(options, volumes, surfaces);
-  const int shadow_map = shadow_map_size(options);
+  int shadow_map = shadow_map_size(options);
   if (options.get("volume") && volumes.size() != 1)
     throw Error(ExitCode::usage, "--volume", "render takes one method", "compare takes several");
   if (surfaces.size() != 1)
     throw Error(ExitCode::usage, "--surface", "render takes one method", "compare takes several");
   Subject subject = make_subject(options);
-  show_transmission(options, subject, volumes, surfaces);
+  take_usual_methods(options, subject, volumes, surfaces, shadow_map);
   fit_to_view(volumes, surfaces, subject);
   const quality::VolumeChoice& volume = volumes[0];
   const quality::SurfaceChoice& surface = surfaces[0];

@@ -8,6 +8,7 @@
 #include "app/commands.h"
 #include "app/memory.h"
 #include "app/output.h"
+#include "app/settings.h"
 #include "quality/axes.h"
 #include "scene/numbers.h"
 
@@ -42,41 +43,6 @@ quality::Axes axes_of(const Options& options) {
   return axes;
 }
 
-/// What --all takes; without what cannot show the views, which is counted.
-std::vector<quality::VolumeChoice> every_volume(const Options& options, const Subject& subject,
-                                                std::size_t& refused) {
-  std::vector<quality::VolumeChoice> volumes;
-  for (const quality::VolumeMethod& method : quality::volume_methods()) {
-    if (!method.traits.is_judged()) continue;
-    for (quality::VolumeChoice& volume :
-         quality::settings_worth_sweeping(method, common_method_options(options), k_most_of_all)) {
-      quality::VolumeChoice fitted = volume;
-      try {
-        fitted.fit(subject.views());
-        volumes.push_back(std::move(volume));
-      } catch (const Error&) {
-        ++refused;
-      }
-    }
-  }
-  if (volumes.empty()) throw Error(ExitCode::usage, "--all", "no method can show the view");
-  return volumes;
-}
-
-/// Each with each; a shadow map that neither method reads is no axis.
-std::vector<quality::Setting> product(const std::vector<quality::VolumeChoice>& volumes,
-                                      const std::vector<quality::SurfaceChoice>& surfaces,
-                                      const std::vector<int>& shadow_maps) {
-  std::vector<quality::Setting> settings;
-  for (const quality::VolumeChoice& volume : volumes)
-    for (const quality::SurfaceChoice& surface : surfaces)
-      for (const int shadow_map : shadow_maps) {
-        const bool is_read = quality::is_read("shadow-map", {&volume, 1}, {&surface, 1});
-        settings.push_back({volume, surface, is_read ? std::optional(shadow_map) : std::nullopt});
-      }
-  return settings;
-}
-
 }  // namespace
 
 void sweep(const Options& options) {
@@ -102,7 +68,7 @@ void sweep(const Options& options) {
     throw Error(ExitCode::usage, "--baseline", "it names several methods", "name one");
   Subject subject = make_subject(options);
   std::size_t refused = 0;
-  if (options.all) volumes = every_volume(options, subject, refused);
+  if (options.all) volumes = every_volume(options, subject, k_most_of_all, refused);
   require_read(options, volumes, surfaces);
   fit_to_view(volumes, surfaces, subject);
   quality::VolumeChoice baseline_volume = baselines[0];

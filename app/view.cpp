@@ -17,7 +17,7 @@ void view(const Options& options) {
   auto volumes = parse_volumes(options, "vsv");
   auto surfaces = parse_surfaces(options);
   require_read(options, volumes, surfaces);
-  const int shadow_map = shadow_map_size(options);
+  int shadow_map = shadow_map_size(options);
   if (volumes.size() != 1 || surfaces.size() != 1)
     throw scene::Error(scene::ExitCode::usage, volumes.size() != 1 ? "--volume" : "--surface",
                        "view begins with one method", "another one can be set beside it in the window");
@@ -31,7 +31,7 @@ void view(const Options& options) {
   require_gpu(surfaces[0], "--surface");
   Subject subject = make_subject(options);
   if (!options.get("size")) subject.view.size = {1280, 720};
-  show_transmission(options, subject, volumes, surfaces);
+  take_usual_methods(options, subject, volumes, surfaces, shadow_map);
   viewer::Shown shown{subject.view, volumes[0],       surfaces[0],
                       shadow_map,   subject.exposure, subject.scene.tone_map};
   fit_to_view(volumes, surfaces, subject);

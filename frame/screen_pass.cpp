@@ -33,10 +33,10 @@ void ScreenPass::run(const std::vector<gpu::Attachment>& images) const {
 }
 
 ScreenPass ray_pass(const ViewRays& rays, std::span<const std::uint32_t> fragment,
-                    std::span<const gpu::Constant> constants) {
+                    std::span<const gpu::Constant> constants, gpu::Blend blend) {
   std::vector<gpu::Constant> all(constants.begin(), constants.end());
   all.emplace_back(22, rays.are_listed());
-  return ScreenPass(fragment, all, gpu::Blend::replace, rays.are_listed() ? Texels::listed : Texels::all);
+  return ScreenPass(fragment, all, blend, rays.are_listed() ? Texels::listed : Texels::all);
 }
 
 }  // namespace airlight::frame

@@ -44,8 +44,8 @@ class ScreenPass {
 };
 
 /// A pass over an image of view rays.
-/// @param fragment asks shaders/frame/ray_place.glsl where they are
+/// @param fragment asks shaders/frame/ray_place.glsl where they are @param blend as of ScreenPass
 ScreenPass ray_pass(const ViewRays& rays, std::span<const std::uint32_t> fragment,
-                    std::span<const gpu::Constant> constants);
+                    std::span<const gpu::Constant> constants, gpu::Blend blend = gpu::Blend::replace);
 
 }  // namespace airlight::frame

@@ -1,5 +1,6 @@
 #include "media/march.h"
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <span>
@@ -13,6 +14,11 @@
 #include "spirv/media/tree_march_psv_frag.h"
 
 namespace airlight::media {
+
+/// Drivers end a shader's loops unasked after 65,535 turns of all of them (llvmpipe), or when it takes too
+/// long (a GPU that also drives a display): a way down a tree takes up to some thousand.
+constexpr std::uint32_t k_steps_of_tree_pass = 16;
+
 March::March(const gpu::Context& context, const MarchOptions& options)
     : options_(options), space_(sizeof(shaders::EpipolarBlock)) {
   if (options.look_up == MarchLookUp::psv) tree_.emplace<surface_shadows::Psv>(surface_shadows::PsvOptions{});
@@ -73,7 +79,9 @@ const frame::ScreenPass& March::load(const Variant& variant, const frame::SceneB
   with_tree(tree_, [&](const auto& tree) {
     for (const gpu::Constant& constant : tree.walk_constants(scene)) constants.push_back(constant);
   });
-  return passes_.emplace(variant, frame::ray_pass(options_.rays, fragment_of(options_.look_up), constants))
+  return passes_
+      .emplace(variant, frame::ray_pass(options_.rays, fragment_of(options_.look_up), constants,
+                                        variant.adds ? gpu::Blend::add : gpu::Blend::replace))
       .first->second;
 }
 
@@ -92,21 +100,26 @@ void March::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radi
   const gpu::Texture* light_texture = inputs.light_texture();
   const bool is_sun = scene::is_sun(light);
   const std::uint32_t layer = layer_of(view.medium, light, view.camera.eye);
-  const frame::ScreenPass& pass = load({.phase = static_cast<std::uint32_t>(view.medium.phase),
-                                        .layer = layer,
-                                        .reach = reach_of(light),
-                                        .light_textured = light_texture != nullptr,
-                                        .plane = inputs.shadow_map_is_plane(),
-                                        .rough = !is_sun && is_rough(inputs, layer),
-                                        .sun = is_sun,
-                                        .transmits = options_.asks_tree() && inputs.scene.transmits()},
-                                       inputs.scene);
+  const auto steps = static_cast<std::uint32_t>(options_.steps);
+  const std::uint32_t steps_of_pass = options_.asks_tree() ? k_steps_of_tree_pass : steps;
+  Variant variant{.phase = static_cast<std::uint32_t>(view.medium.phase),
+                  .layer = layer,
+                  .reach = reach_of(light),
+                  .light_textured = light_texture != nullptr,
+                  .plane = inputs.shadow_map_is_plane(),
+                  .rough = !is_sun && is_rough(inputs, layer),
+                  .sun = is_sun,
+                  .transmits = options_.asks_tree() && inputs.scene.transmits(),
+                  .adds = false};
+  std::vector<const frame::ScreenPass*> passes;
+  for (std::uint32_t from = 0; from < steps; from += steps_of_pass) {
+    variant.adds = from > 0;
+    passes.push_back(&load(variant, inputs.scene));
+  }
   const scene::Box& box = inputs.scene.box();
   const double reach = !box.empty() ? scene::reach_from(view.camera.eye, box)
                        : is_sun     ? 1.0
                                     : glm::distance(view.camera.eye, light.position);
-  pass.pipeline().set(0, glm::uvec2(static_cast<std::uint32_t>(options_.steps),
-                                    std::bit_cast<std::uint32_t>(static_cast<float>(reach))));
   if (rows_) {
     rows_->find_ranges(inputs);
     rows_->fill(inputs);
@@ -117,7 +130,7 @@ void March::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radi
     if (!options_.asks_tree()) inputs.shadow_map(0.0).bind_sampler(shaders::k_shadow_map_unit);
     with_tree(tree_, [&](auto& tree) {
       tree.build(inputs);
-      tree.bind_walk(inputs, pass.pipeline());
+      for (const frame::ScreenPass* pass : passes) tree.bind_walk(inputs, pass->pipeline());
     });
   }
   if (gather_ && scattered_.size() != radiance.size())
@@ -125,7 +138,11 @@ void March::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radi
   inputs.timer.time("integrate", [&] {
     inputs.ray_surfaces().bind_sampler(shaders::k_surface_unit);
     if (light_texture) light_texture->bind_sampler(shaders::k_light_texture_unit);
-    pass.run({gather_ ? scattered_ : radiance});
+    for (std::uint32_t i = 0; i < passes.size(); ++i) {
+      passes[i]->pipeline().set(0, glm::uvec4(steps, std::bit_cast<std::uint32_t>(static_cast<float>(reach)),
+                                              i * steps_of_pass, std::min(steps, (i + 1) * steps_of_pass)));
+      passes[i]->run({gather_ ? scattered_ : radiance});
+    }
     if (!gather_) return;
     scattered_.bind_sampler(shaders::k_scratch_unit);
     gather_->run({radiance});

@@ -84,6 +84,7 @@ class March : public frame::Airlight {
   struct Variant {
     std::uint32_t phase, layer, reach;
     bool light_textured, plane, rough, sun, transmits;
+    bool adds;  ///< to what passes before it have found
     auto operator<=>(const Variant&) const = default;
   };
   const frame::ScreenPass& load(const Variant& variant, const frame::SceneBuffers& scene);

@@ -312,6 +312,12 @@ std::vector<Measurer::FrameTime> Measurer::play(const Pair& pair, std::span<cons
   return times;
 }
 
+std::int64_t Measurer::shared_bytes() const {
+  std::int64_t sum = 0;
+  for (const auto& [name, bytes] : frame_.bytes()) sum += bytes;
+  return sum;
+}
+
 std::vector<frame::DebugImage> Measurer::debug_images(const VolumeChoice& volume) {
   const auto airlight = volume.make(context_, *reference_);
   std::vector<frame::DebugImage> images;

@@ -119,6 +119,11 @@ class Measurer {
   /// @param views kept by reference; the last one is looked at afterwards
   std::vector<FrameTime> play(const Pair& pair, std::span<const scene::View> views);
 
+  /// Of the last frame.
+  frame::FrameImages images() const { return frame_.read(); }
+  /// GPU memory of the last frame, without its methods' own.
+  std::int64_t shared_bytes() const;
+
   /// Pictures of what a volume method holds: see frame::Airlight::debug_images. Draws one more frame.
   std::vector<frame::DebugImage> debug_images(const VolumeChoice& volume);
 

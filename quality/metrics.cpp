@@ -36,11 +36,6 @@ double percentile_99(std::vector<double>& values) {
   return *place;
 }
 
-/// See SameSurfaceError.
-bool is_same_surface(float distance, float reference_distance) {
-  return !(std::abs(distance - reference_distance) > 1e-3f * reference_distance);
-}
-
 }  // namespace
 
 std::span<const float> channels_of(const std::vector<glm::vec3>& image) {

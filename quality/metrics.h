@@ -52,6 +52,11 @@ SameSurfaceError same_surface_error(std::span<const float> x, std::span<const fl
                                     std::span<const float> r, std::span<const float> reference_distance,
                                     double floor = 0.0);
 
+/// Whether two distances along a view ray [m], 0 for none, are of one surface.
+inline bool is_same_surface(float distance, float reference_distance) {
+  return !(std::abs(distance - reference_distance) > 1e-3f * reference_distance);
+}
+
 /// What the flicker of a path's next frame asks of a frame.
 struct ErrorImage {
   /// x − r of each channel of each pixel that same_surface_error keeps; NaN of the others

@@ -26,8 +26,6 @@ namespace airlight::reference {
 
 namespace {
 
-/// Side of a tile [pixels].
-constexpr int k_tile = 8;
 /// A tile of more occluders than this is split: each of its rays goes through all of them, and they need
 /// memory.
 constexpr std::size_t k_most_occluders = 65536;
@@ -180,6 +178,26 @@ class Reference::TileIntegrator {
 
 AirlightImage Reference::exact(int refinement, const Progress& progress) const {
   return state_->sun ? exact_along<SunRay>(refinement, progress) : exact_along<ViewRay>(refinement, progress);
+}
+
+AirlightImage Reference::exact_in(std::span<const glm::ivec2> tiles) const {
+  return state_->sun ? exact_tiles<SunRay>(tiles) : exact_tiles<ViewRay>(tiles);
+}
+
+template <class Ray>
+AirlightImage Reference::exact_tiles(std::span<const glm::ivec2> tiles) const {
+  const State& state = *state_;
+  AirlightImage image;
+  image.radiance.resize(state.pixels());
+  const Hierarchy hierarchy(state.triangles, state.origin);
+  const auto make_worker = [&] {
+    return [&, integrator = TileIntegrator<Ray>(state, hierarchy, 1, image)](int i) mutable {
+      const glm::ivec2 from = k_tile * tiles[static_cast<std::size_t>(i)];
+      integrator.integrate({from, glm::min(from + k_tile, state.view.size)});
+    };
+  };
+  scene::parallel(static_cast<int>(tiles.size()), make_worker, {});
+  return image;
 }
 
 template <class Ray>

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "scene/parallel.h"
@@ -74,12 +75,19 @@ class Reference {
   /// @param refinement parts that each panel of the quadrature is cut into: tests its bound
   AirlightImage exact(int refinement = 1, const Progress& progress = {}) const;
 
+  /// The same of some tiles of k_tile² pixels, those at the image's right and lower sides cut, by their
+  /// columns and rows; 0 elsewhere, and no figures.
+  AirlightImage exact_in(std::span<const glm::ivec2> tiles) const;
+  static constexpr int k_tile = 8;
+
  private:
   struct State;
   template <class Ray>
   class TileIntegrator;
   template <class Ray>
   AirlightImage exact_along(int refinement, const Progress& progress) const;
+  template <class Ray>
+  AirlightImage exact_tiles(std::span<const glm::ivec2> tiles) const;
   template <class Ray>
   AirlightImage sampled_along(int samples, const Progress& progress) const;
   AirlightImage march_to_sun(int samples, RayMode mode, const Progress& progress) const;

@@ -268,6 +268,12 @@ struct ImportReport {
   std::vector<std::string> warnings;     ///< one line each, with counts
 };
 
+/// The methods that a scene is best shown by, as users write them; empty for no choice.
+struct UsualMethods {
+  std::string volume, surface;
+  std::optional<int> shadow_map;  ///< side of a cube face [texels]
+};
+
 /// A scene: what is rendered, with the views, lights and medium it brings along.
 struct Scene {
   std::string name;
@@ -279,6 +285,7 @@ struct Scene {
   Surroundings surroundings;
   std::optional<float> exposure;  ///< of PNG previews: linear radiance is multiplied by it; automatic without
   ToneMap tone_map = ToneMap::none;  ///< of PNG previews
+  UsualMethods methods;
   ImportReport report;
 };
 

@@ -58,6 +58,7 @@ struct Shot {
   std::shared_ptr<Table> root;
   std::unique_ptr<const ShotChoices> choices;
   std::vector<std::unique_ptr<const Choices>> lights;
+  UsualMethods methods;
 
   Shot(const std::filesystem::path& file, const toml::table& content, const LightTextureReader& reader)
       : root(std::make_shared<Table>(file, content)) {
@@ -68,6 +69,10 @@ struct Shot {
       light->refuse_others();
       if (!light->is_empty()) lights.push_back(std::move(light));
     };
+    const auto of_methods = table("methods");
+    methods = {of_methods->text("volume").value_or(""), of_methods->text("surface").value_or(""), {}};
+    if (const auto size = of_methods->count("shadow_map")) methods.shadow_map = static_cast<int>(*size);
+    of_methods->refuse_others();
     choices = std::make_unique<ShotChoices>(
         ShotChoices::Tables{{"", root}, {"camera", table("camera")}, {"medium", table("medium")}}, reader);
     if (root->has("light") && root->has("sun"))
@@ -117,6 +122,7 @@ Scene load_shot(const std::filesystem::path& file, std::optional<std::size_t> tr
   const Shot shot(file, root, read_light_texture);
   Scene scene = load_subject(file, shot, triangles, looks);
   choose_all(*shot.choices, shot.lights, scene);
+  scene.methods = shot.methods;
   try {
     if (scene.lights.empty())
       camera_frame(scene.cameras[0], {1, 1});

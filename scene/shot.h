@@ -42,6 +42,10 @@ namespace airlight::scene {
 ///     g = 0.5
 ///     rayleigh_weight = 0.5      # with phase = "hoffman-preetham"
 ///     fog_top = 16               # the medium fills what lies below [m]
+///     [methods]                  # that it is best shown by, as airlight tune finds them
+///     volume = "vsv:phi=256"
+///     surface = "shadow-map"
+///     shadow_map = 1024          # [texels]
 ///
 /// Everything but `scene` may be left out. Keys mean what the command line's options of these names mean; a
 /// camera or a light without a name of its own is named by its number from 0, as in name = "0". Lights stand

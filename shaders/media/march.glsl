@@ -13,8 +13,8 @@ layout(constant_id = 19) const uint k_by_angle = 0;  // a lamp's steps are equal
 layout(constant_id = 20) const uint k_jitter = 0;    // media/march.h
 const uint k_off = 0u;
 const uint k_gathered = 2u;
-// The number of steps, and how far the scene reaches from the eye, a float's bits [m].
-layout(location = 0) uniform uvec2 march;
+// The number of steps; how far the scene reaches from the eye, a float's bits [m]; the first step of this pass, and the first of the next.
+layout(location = 0) uniform uvec4 march;
 
 // What is looked up: the share of the light, RGB, that reaches the point of a ray at the distance t [m], where φ is `phi`.
 vec3 light_along(MediumRay ray, float t, float phi);
@@ -26,8 +26,8 @@ vec3 sun_airlight(MediumRay ray, float offset) {
   SunRay sun = sun_ray(medium, light, ray.direction, ray.distance);
   MarchSteps steps = march_steps(sun.entry, sun.exit, uintBitsToFloat(march.y), float(march.x));
   vec3 integral = vec3(0.0);
-  float from = sun.entry;
-  for (uint i = 0u; i < march.x; ++i) {
+  float from = march.z == 0u ? sun.entry : place_of_step(steps, float(march.z));
+  for (uint i = march.z; i < march.w; ++i) {
     float to = place_of_step(steps, float(i + 1u));
     float at = place_of_step(steps, float(i) + offset);
     vec3 share = light_along(ray, at, phi_at(space, ray.angle, at));
@@ -56,8 +56,15 @@ vec3 lamp_airlight(MediumRay ray, float offset) {
   }
   vec3 sum = vec3(0.0);
   float from = part.from;
-  uint count = part.from < part.to ? march.x : 0u;
-  for (uint i = 0u; i < count; ++i) {
+  if (march.z != 0u) {
+    if (k_by_angle != 0u) {
+      from = mix(part.from, part.to, float(march.z) / float(march.x));
+    } else {
+      from = clamp(phi_at(space, ray.angle, place_of_step(steps, float(march.z))), part.from, part.to);
+    }
+  }
+  uint end = part.from < part.to ? march.w : march.z;
+  for (uint i = march.z; i < end; ++i) {
     float to = part.to;
     float at;
     float phi;
@@ -77,12 +84,12 @@ vec3 lamp_airlight(MediumRay ray, float offset) {
   return airlight_scale(space, light, medium, ray.angle.sine) * sum;
 }
 
-// A ray's airlight, and what it was multiplied by: what is gathered is smooth where a lamp is seen, where airlight grows as 1/sin α.
+// A ray's airlight, as much as this pass adds, and what it was multiplied by: what is gathered is smooth where a lamp is seen, where airlight grows as 1/sin α.
 vec4 march_airlight(MediumRay ray, ivec2 pixel) {
   float offset = k_jitter != k_off ? interleaved_offset(pixel) : 0.5;
   vec3 radiance = k_sun != 0u ? sun_airlight(ray, offset) : lamp_airlight(ray, offset);
   float flattening = 1.0;
   if (k_sun == 0u) flattening = ray.angle.sine;
   if (k_jitter != k_gathered) flattening = 1.0;
-  return vec4(flattening * radiance, flattening);
+  return vec4(flattening * radiance, march.z == 0u ? flattening : 0.0);
 }

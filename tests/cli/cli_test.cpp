@@ -211,6 +211,50 @@ TEST_F(Commands, ImageMeasuresImages) {
   expect_one_line_error(airlight({"image", "error", "vsv.exr", "vsv.exr", "--layer", "glow"}), 3);
 }
 
+TEST_F(Commands, TuneFindsTheSettingThatReachesAGoal) {
+  const auto tune = [&](std::vector<std::string> words) {
+    std::vector<std::string> all = {
+        "tune",         "cornell",  "--size",    "48x48", "--volume", "vsv:phi={128,256},march:steps={8,64}",
+        "--shadow-map", "{64,256}", "--surface", "none",  "--frames", "2",
+        "--quiet"};
+    all.insert(all.end(), words.begin(), words.end());
+    return airlight(all);
+  };
+  const Result found = tune({"--max-error", "0.05", "--json", "-"});
+  ASSERT_EQ(found.exit_code, 0) << found.err;
+  const Json json = Json::parse(found.out);
+  EXPECT_EQ(json["met"], true);
+  EXPECT_GT(json["error"], 0.0);
+  EXPECT_LE(json["error"], 0.05);
+  EXPECT_GT(json["bytes"], 0);
+  EXPECT_GT(json["frame_ms"], 0.0);
+  EXPECT_GE(json["confidence"], 0.0);
+  EXPECT_EQ(json["tried"]["settings"], 8);
+  EXPECT_TRUE(json["shadow_map"] == 64 || json["shadow_map"] == 256);
+
+  // The least error of what is allowed is that of the finest.
+  const Json finest = Json::parse(tune({"--max-bytes", "1e9", "--json", "-"}).out);
+  EXPECT_EQ(finest["shadow_map"], 256);
+  EXPECT_LE(finest["error"], json["error"]);
+
+  const Result missed = tune({"--max-error", "1e-9"});
+  EXPECT_EQ(missed.exit_code, 1);
+  EXPECT_THAT(missed.out, HasSubstr("nothing reaches the goal"));
+  expect_one_line_error(tune({"--max-error", "0.1", "--max-ms", "10"}), 2);
+  expect_one_line_error(tune({"--max-ms", "-1"}), 2);
+  expect_one_line_error(tune({}), 2);
+
+  // Its lines are a shot's.
+  const std::string text = tune({"--max-error", "0.05", "--explain"}).out;
+  const std::size_t begin = text.find("[methods]"), end = text.find("//");
+  ASSERT_NE(end, std::string::npos);
+  EXPECT_THAT(text, HasSubstr("theta"));
+  std::ofstream(file("shot.toml")) << "scene = \"cornell\"\n" << text.substr(begin, end - begin);
+  ASSERT_EQ(airlight({"render", "shot.toml", "--size", "16x16", "-o", "shot.exr", "--quiet"}).exit_code, 0);
+  const std::string spec = text.substr(begin + 20, text.find('"', begin + 20) - begin - 20);
+  EXPECT_THAT(airlight({"image", "info", "shot.exr"}).out, HasSubstr(spec));
+}
+
 TEST_F(Commands, ScenesListsEveryBuiltinScene) {
   const Result result = airlight({"scenes"});
   EXPECT_EQ(result.exit_code, 0);

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "app/options.h"
+#include "quality/sweep.h"
+
+namespace airlight::app {
+
+/// Settings worth sweeping of every method of airlight that is judged, without what cannot show the views.
+/// @param most of a method @param refused gets how many cannot show the views
+/// @throws scene::Error (usage) where none can
+std::vector<quality::VolumeChoice> every_volume(const Options& options, const Subject& subject,
+                                                std::size_t most, std::size_t& refused);
+
+/// Each with each; a shadow map that neither method reads is no axis.
+std::vector<quality::Setting> product(const std::vector<quality::VolumeChoice>& volumes,
+                                      const std::vector<quality::SurfaceChoice>& surfaces,
+                                      const std::vector<int>& shadow_maps);
+
+}  // namespace airlight::app

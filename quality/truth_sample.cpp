@@ -1,0 +1,131 @@
+#include "quality/truth_sample.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <set>
+#include <utility>
+
+#include "quality/metrics.h"
+
+namespace airlight::quality {
+namespace {
+
+constexpr int k_tile = reference::Reference::k_tile;
+/// What tiles in which the two images are alike are given of the mean.
+constexpr double k_least_part = 0.2;
+
+/// Calls f with the index of each of a tile's pixels.
+template <typename Function>
+void for_each_pixel(glm::ivec2 size, glm::ivec2 tile, const Function& f) {
+  const glm::ivec2 from = k_tile * tile, to = glm::min(from + k_tile, size);
+  for (int y = from.y; y < to.y; ++y)
+    for (int x = from.x; x < to.x; ++x)
+      f(static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(x));
+}
+
+}  // namespace
+
+TileDraw::TileDraw(glm::ivec2 size, std::span<const glm::vec3> a, std::span<const glm::vec3> b)
+    : columns_rows_((size + k_tile - 1) / k_tile) {
+  double sum = 0.0;
+  for (int row = 0; row < columns_rows_.y; ++row) {
+    for (int column = 0; column < columns_rows_.x; ++column) {
+      double squares = 0.0;
+      for_each_pixel(size, {column, row}, [&](std::size_t i) {
+        const glm::dvec3 difference = glm::dvec3(a[i]) - glm::dvec3(b[i]);
+        squares += glm::dot(difference, difference);
+      });
+      sum += probability_.emplace_back(std::sqrt(squares));
+    }
+  }
+  const double least = sum > 0.0 ? k_least_part * sum / static_cast<double>(tiles()) : 1.0;
+  sum += least * static_cast<double>(tiles());
+  for (double& probability : probability_) probability = (probability + least) / sum;
+}
+
+std::vector<DrawnTile> TileDraw::drawn(std::size_t count, std::uint32_t seed) const {
+  std::mt19937 random(seed);
+  const double n = static_cast<double>(count);
+  double next = (static_cast<double>(random()) + 0.5) / 4294967296.0 / n, sum = 0.0;
+  std::vector<DrawnTile> tiles;
+  for (std::size_t i = 0; i < probability_.size(); ++i) {
+    sum += probability_[i];
+    const auto number = static_cast<int>(i);
+    for (; next < sum && tiles.size() < count; next += 1.0 / n)
+      tiles.push_back({{number % columns_rows_.x, number / columns_rows_.x}, 1.0 / (n * probability_[i])});
+  }
+  return tiles;
+}
+
+TruthTracer::TruthTracer(const scene::Geometry& geometry, const scene::View& view) : view_(view) {
+  for (std::size_t light = 0; light < view.lights.size(); ++light)
+    of_light_.emplace_back(geometry, view, light);
+  distance_ = of_light_[0].surfaces().distance;
+}
+
+std::vector<glm::vec3> TruthTracer::airlight(std::span<const glm::ivec2> tiles) const {
+  std::vector<glm::vec3> sum(distance_.size(), glm::vec3(0.0f));
+  for (const reference::Reference& reference : of_light_) {
+    const std::vector<glm::vec3> radiance = reference.exact_in(tiles).radiance;
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += radiance[i];
+  }
+  return sum;
+}
+
+TruthSample::TruthSample(const TruthTracer& tracer, std::vector<DrawnTile> tiles)
+    : size_(tracer.view().size), tiles_(std::move(tiles)), distance_(tracer.distance()) {
+  std::vector<glm::ivec2> distinct;
+  for (const DrawnTile& drawn : tiles_)
+    if (distinct.empty() || distinct.back() != drawn.tile) distinct.push_back(drawn.tile);
+  airlight_ = tracer.airlight(distinct);
+  for (const glm::ivec2& tile : distinct) for_each_pixel(size_, tile, [&](std::size_t) { ++pixels_; });
+}
+
+double ErrorOfTiles::Sums::rrmse() const {
+  if (!(truth > 0.0)) return std::numeric_limits<double>::quiet_NaN();
+  return std::sqrt(squares * channels) / truth;
+}
+
+void ErrorOfTiles::add(const TruthSample& truth, const frame::FrameImages& images) {
+  std::vector<Sums>& view = views_.emplace_back();
+  for (const DrawnTile& drawn : truth.tiles_) {
+    Sums& sums = view.emplace_back();
+    for_each_pixel(truth.size_, drawn.tile, [&](std::size_t i) {
+      if (!is_same_surface(images.distance[i], truth.distance_[i])) return;
+      const glm::dvec3 x(images.airlight[i]), r(truth.airlight_[i]);
+      sums.squares += drawn.weight * glm::dot(x - r, x - r);
+      sums.truth += drawn.weight * (r.r + r.g + r.b);
+      sums.channels += 3.0 * drawn.weight;
+    });
+  }
+}
+
+double ErrorOfTiles::rrmse() const {
+  double sum = 0.0;
+  for (const std::vector<Sums>& view : views_) {
+    Sums of_view;
+    for (const Sums& tile : view) of_view += tile;
+    sum += of_view.rrmse();
+  }
+  return sum / static_cast<double>(views_.size());
+}
+
+double ErrorOfTiles::part_not_above(double limit) const {
+  constexpr int k_draws = 1000;
+  std::mt19937 random(1);
+  int within = 0;
+  for (int draw = 0; draw < k_draws; ++draw) {
+    double sum = 0.0;
+    for (const std::vector<Sums>& view : views_) {
+      Sums of_view;
+      for (std::size_t i = 0; i < view.size(); ++i) of_view += view[random() % view.size()];
+      sum += of_view.rrmse();
+    }
+    within += sum / static_cast<double>(views_.size()) <= limit;
+  }
+  return static_cast<double>(within) / k_draws;
+}
+
+}  // namespace airlight::quality
