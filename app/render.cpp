@@ -145,7 +145,8 @@ void render(const Options& options) {
                                      k_bytes_of_rendered_light * (subject.view.lights.size() - 1),
                   .shadow_map = quality::is_read("shadow-map", volumes, surfaces) ? shadow_map : 0,
                   .triangles = subject.scene.geometry.triangles.size(),
-                  .looks = bytes_of_looks(subject.scene.geometry)});
+                  .looks = bytes_of_looks(subject.scene.geometry),
+                  .scenes = subject.scenes()});
   Images images{.options = options,
                 .subject = subject,
                 .volume = volume,

@@ -140,11 +140,12 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
   scene::validate(view);
   require_images(view, surface_shadow.visibility_format());
   resources_.begin_frame(resting);
+  timer.begin_part({});
+  resources_.pose(view.pose, timer);
   const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
   const SceneBuffers& scene = resources_.scene();
 
   // What the camera sees.
-  timer.begin_part({});
   float near = 0.0f;
   timer.time("surfaces", [&] {
     double distance = std::numeric_limits<double>::infinity();

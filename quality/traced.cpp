@@ -173,13 +173,19 @@ frame::SurfaceMethod reference_surface_method() {
 
 SharedReference::SharedReference(const scene::Geometry& geometry, const scene::View& view, Progress progress,
                                  const std::filesystem::path& cache)
-    : geometry_(geometry), view_(view), progress_(std::move(progress)), lights_(view.lights.size()) {
-  if (!cache.empty()) cache_.emplace(cache, geometry, view);
+    : at_rest_(geometry), view_(view), progress_(std::move(progress)), lights_(view.lights.size()) {
+  if (!cache.empty()) cache_.emplace(cache, this->geometry(), view);
+}
+
+const scene::Geometry& SharedReference::geometry() {
+  if (view_.pose.is_at_rest()) return at_rest_;
+  if (!posed_) posed_ = scene::posed(at_rest_, view_.pose);
+  return *posed_;
 }
 
 const reference::Reference& SharedReference::rays(std::size_t light) {
   OfLight& of_light = lights_[light];
-  if (!of_light.rays) of_light.rays.emplace(geometry_, view_, light);
+  if (!of_light.rays) of_light.rays.emplace(geometry(), view_, light);
   return *of_light.rays;
 }
 
@@ -231,8 +237,8 @@ const SurfaceVerdicts& SharedReference::verdicts(std::size_t light, const frame:
   const auto start = Clock::now();
   verdicts.assign(points.triangles.size(), std::nullopt);
   if (const std::vector<reference::SurfacePoint> seen = seen_points(points, light); !seen.empty()) {
-    const reference::Triangles triangles{geometry_.positions, geometry_.triangles,
-                                         reference::CutOuts(geometry_)};
+    const reference::Triangles triangles{geometry().positions, geometry().triangles,
+                                         reference::CutOuts(geometry())};
     const reference::SurfaceJudge judge(triangles, view_.lights[light], view_.camera.eye);
     const std::vector<reference::SurfaceVerdict> found = judge.judge(seen);
     auto verdict = found.begin();

@@ -24,10 +24,12 @@ using Progress = std::function<void(const std::string& what, double fraction)>;
 /// for twice.
 class SharedReference {
  public:
-  /// @param geometry, view kept by reference
+  /// @param geometry at rest; @param view both kept by reference
   /// @param cache folder where the truth is kept between runs of the program (TruthCache); empty for none
   SharedReference(const scene::Geometry& geometry, const scene::View& view, Progress progress,
                   const std::filesystem::path& cache = {});
+  SharedReference(const SharedReference&) = delete;
+  SharedReference& operator=(const SharedReference&) = delete;
 
   /// Does what goes before the first ray, unless it is done, so that no frame is charged for it.
   void prepare();
@@ -77,7 +79,11 @@ class SharedReference {
   void count(const reference::AirlightImage& image);
   reference::Progress report(const std::string& what) const;
 
-  const scene::Geometry& geometry_;
+  /// Where the view has it.
+  const scene::Geometry& geometry();
+
+  const scene::Geometry& at_rest_;
+  std::optional<scene::Geometry> posed_;  ///< made when it is first asked for
   const scene::View& view_;
   Progress progress_;
   std::optional<TruthCache> cache_;

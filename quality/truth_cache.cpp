@@ -89,6 +89,12 @@ std::string words_of_view(const scene::View& view, std::size_t light_index) {
     words +=
         fmt::format("cone {} {:a} {:a}\n", exact(light.cone->axis), light.cone->inner, light.cone->outer);
   if (light.range) words += fmt::format("range {:a}\n", *light.range);
+  if (!view.pose.is_at_rest()) {
+    Hash hash;
+    hash.add(view.pose.objects->of_triangle);
+    hash.add(view.pose.motions);
+    words += fmt::format("pose {}\n", hash.text());
+  }
   return words;
 }
 

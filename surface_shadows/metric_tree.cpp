@@ -5,11 +5,11 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <utility>
 
 #include "frame/blocks.h"
 #include "frame/clusters.h"
 #include "surface_shadows/tree_options.h"
-#include "surface_shadows/triangle_clusters.h"
 
 #include "spirv/surface_shadows/metric_tree_cones_comp.h"
 #include "spirv/surface_shadows/metric_tree_insert_comp.h"
@@ -50,12 +50,18 @@ MetricTree::MetricTree(const MetricTreeOptions& options)
       query_(query_pass(Counted::none)) {}
 
 void MetricTree::load(const frame::FrameInputs& inputs) {
-  if (options_.cull == Culling::automatic) culled_parts_ = CulledParts(inputs);
+  objects_ = inputs.view.pose.objects;
+  std::vector<std::uint32_t> object_of_triangle;
+  if (objects_)
+    for (const std::uint32_t triangle : inputs.scene.order())
+      object_of_triangle.push_back(objects_->of_triangle[triangle]);
   TriangleClusters made;
   inputs.timer.time("triangle_clusters", [&] {
-    made = make_triangle_clusters(inputs.geometry(), inputs.scene.order(), culled_parts_.of_triangle(),
+    made = make_triangle_clusters(inputs.resources.geometry_at_rest(), inputs.scene.order(),
+                                  culled_parts_.of_triangle(),
                                   {.most_triangles = static_cast<std::uint32_t>(options_.cluster),
-                                   .has_capsules = options_.capsules == Use::on});
+                                   .has_capsules = options_.capsules == Use::on},
+                                  object_of_triangle);
   });
   // Their numbers are the order in which they are inserted.
   std::shuffle(made.clusters.begin(), made.clusters.end(),
@@ -78,6 +84,39 @@ void MetricTree::load(const frame::FrameInputs& inputs) {
   triangle_texels_ = {limits, triangles_, gpu::Format::r32ui, "the model's triangles"};
   node_texels_ = {limits, nodes_, gpu::Format::rgba32ui, "the tree of the model's clusters"};
   always_asked_texels_ = {limits, always_asked_, gpu::Format::r32ui, "the model's clusters"};
+  at_rest_ = inputs.scene.id_at_rest();
+
+  clusters_at_rest_.clear();
+  object_of_cluster_.clear();
+  if (!objects_) return;
+  for (const TriangleCluster& cluster : made.clusters)
+    object_of_cluster_.push_back(object_of_triangle[made.triangles[cluster.first]]);
+  clusters_at_rest_ = std::move(made.clusters);
+}
+
+void MetricTree::move_clusters(const scene::Pose& pose) const {
+  std::vector<TriangleCluster> clusters = clusters_at_rest_;
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    const std::uint32_t object = object_of_cluster_[i];
+    if (object != 0 && !pose.motions[object - 1].is_identity())
+      clusters[i].bounds = moved(clusters[i].bounds, pose.motions[object - 1]);
+  }
+  clusters_.write(clusters.data(), clusters_.bytes());
+}
+
+/// Clusters, where the view has their triangles.
+void MetricTree::require_clusters(const frame::FrameInputs& inputs) {
+  const scene::Pose& pose = inputs.view.pose;
+  bool are_there = at_rest_ == inputs.scene.id_at_rest() && objects_ == pose.objects;
+  if (are_there && scene_ == inputs.scene.id()) return;
+  if (options_.cull == Culling::automatic) {
+    // What touches is one part: where objects come together or part, other triangles are.
+    CulledParts parts(inputs);
+    are_there = are_there && parts.of_triangle() == culled_parts_.of_triangle();
+    culled_parts_ = std::move(parts);
+  }
+  if (!are_there) load(inputs);
+  if (objects_ && cluster_count_ > 0) inputs.timer.time("surface_build", [&] { move_clusters(pose); });
   scene_ = inputs.scene.id();
 }
 
@@ -189,7 +228,7 @@ void MetricTree::query(const frame::FrameInputs& inputs, const gpu::Texture& vis
   // Stages of their own.
   inputs.surface_points();
   inputs.triangle_planes();
-  if (scene_ != inputs.scene.id()) load(inputs);
+  require_clusters(inputs);
   inputs.timer.time("surface_build", [&] { build(inputs); });
   inputs.timer.time("surface_query", [&] { run(query_, inputs, visibility); });
 }

@@ -2,12 +2,15 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "frame/method.h"
 #include "frame/screen_pass.h"
 #include "surface_shadows/culled_parts.h"
 #include "surface_shadows/occluders.h"
+#include "surface_shadows/triangle_clusters.h"
 
 namespace airlight::surface_shadows {
 
@@ -30,7 +33,8 @@ struct MetricTreeOptions {
 
 /// `metric-tree`: clusters of triangles, made once a scene, in a ternary tree by their distances from each
 /// other as the light sees them, which is made anew each frame on the GPU and asked once a pixel. Exact:
-/// whatever its other options, it answers what `brute` does with the same culling.
+/// whatever its other options, it answers what `brute` does with the same culling. Where objects move, each
+/// cluster is of one of them, and its bounds go with it.
 /// Based on: see shaders/surface_shadows/metric_tree.glsl and triangle_clusters.h.
 class MetricTree : public frame::SurfaceShadow {
  public:
@@ -63,6 +67,8 @@ class MetricTree : public frame::SurfaceShadow {
   static Distances distances(const frame::FrameInputs& inputs, const LightScale& scale);
 
   void load(const frame::FrameInputs& inputs);
+  void require_clusters(const frame::FrameInputs& inputs);
+  void move_clusters(const scene::Pose& pose) const;
   void build(const frame::FrameInputs& inputs);
   std::uint32_t write_light_view(const frame::FrameInputs& inputs) const;
   void run(const frame::ScreenPass& pass, const frame::FrameInputs& inputs, const gpu::Texture& image) const;
@@ -72,7 +78,12 @@ class MetricTree : public frame::SurfaceShadow {
   gpu::Pipeline cones_program_, insert_program_;
   frame::ScreenPass query_;
 
-  std::uint64_t scene_ = 0;  ///< SceneBuffers::id
+  std::uint64_t scene_ = 0;    ///< SceneBuffers::id
+  std::uint64_t at_rest_ = 0;  ///< SceneBuffers::id_at_rest of the scene that the clusters are of, …
+  std::shared_ptr<const scene::Objects> objects_;  ///< … and of which objects
+  // Where there are any, in the order of the clusters:
+  std::vector<TriangleCluster> clusters_at_rest_;
+  std::vector<std::uint32_t> object_of_cluster_;  ///< as of Objects::of_triangle
   std::uint32_t cluster_count_ = 0;
   double capsule_share_ = 0.0;
   CulledParts culled_parts_;

@@ -84,6 +84,21 @@ TEST(TriangleClusters, SpanNoParts) {
   expect_whole(geometry, order, parts, make_triangle_clusters(geometry, order, parts, {}), 16);
 }
 
+TEST(TriangleClusters, SpanNoObjectsNeither) {
+  const scene::Geometry& geometry = tests::builtin("toroid").geometry;
+  const std::vector<std::uint32_t> order = order_of(geometry);
+  std::vector<std::uint32_t> parts(order.size()), objects(order.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    parts[i] = static_cast<std::uint32_t>(i * i % 3);
+    objects[i] = static_cast<std::uint32_t>(i / 7 % 2);
+  }
+  const TriangleClusters made = make_triangle_clusters(geometry, order, parts, {}, objects);
+  expect_whole(geometry, order, parts, made, 16);
+  for (const TriangleCluster& cluster : made.clusters)
+    for (std::uint32_t i = 0; i < cluster.count_and_part % k_part_unit; ++i)
+      ASSERT_EQ(objects[made.triangles[cluster.first + i]], objects[made.triangles[cluster.first]]);
+}
+
 TEST(TriangleClusters, OfTrianglesThatAreAllAlikeAndOfNone) {
   scene::Geometry geometry;
   EXPECT_TRUE(make_triangle_clusters(geometry, {}, {}, {}).clusters.empty());
