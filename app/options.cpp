@@ -147,8 +147,9 @@ std::span<const OptionLine> common_options() {
         {"path", "FILE.toml",
          "images along a path of camera, lights and glTF nodes, whose key frames the file holds"});
     lines.push_back({"shadow-map", "N", "side of a face of the shadow map [texels] (default: 2048)"});
-    lines.push_back(
-        {"cache", "DIR", "keep the reference's images there, and look there before tracing them"});
+    lines.push_back({"cache", "DIR",
+                     "keep the reference's images and the clusters of metric-tree there, and look there "
+                     "before making them"});
     for (const quality::CommonOptionText& text : quality::common_option_texts())
       lines.push_back({text.name, "VALUE", text.help});
     return lines;

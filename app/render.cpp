@@ -159,7 +159,8 @@ void render(const Options& options) {
     const quality::Progress follow = progress.follower();
     gpu::Context context;
     images.renderer = context.device().renderer;
-    frame::Frame frame(context, subject.scene.geometry, shadow_map);
+    frame::Frame frame(context, subject.scene.geometry, shadow_map, {},
+                       {options.get("cache").value_or(""), follow});
     auto airlight = volume.method->make(context, volume.options);
     auto shadow = surface.method->make(context, surface.options);
     for (std::size_t i = 0; i < views.size(); ++i) {

@@ -101,9 +101,9 @@ void write_block(const gpu::Buffer& buffer, const Block& block, unsigned binding
 }  // namespace
 
 Frame::Frame(gpu::Context& context, const scene::Geometry& geometry, int shadow_map_size,
-             std::shared_ptr<const SceneBuffers> scene)
+             std::shared_ptr<const SceneBuffers> scene, LongWork long_work)
     : context_(context),
-      resources_(context, geometry, shadow_map_size, std::move(scene)),
+      resources_(context, geometry, shadow_map_size, std::move(scene), std::move(long_work)),
       camera_block_(sizeof(shaders::CameraBlock)),
       light_block_(sizeof(shaders::LightBlock)),
       medium_block_(sizeof(shaders::MediumBlock)) {}

@@ -14,12 +14,13 @@
 namespace airlight::frame {
 
 Resources::Resources(gpu::Context& context, const scene::Geometry& geometry, int shadow_map_size,
-                     std::shared_ptr<const SceneBuffers> scene)
+                     std::shared_ptr<const SceneBuffers> scene, LongWork long_work)
     : context_(context),
       geometry_(geometry),
       at_rest_(scene ? std::move(scene) : std::make_shared<const SceneBuffers>(context, geometry)),
       scene_(at_rest_),
-      shadow_map_size_(shadow_map_size) {}
+      shadow_map_size_(shadow_map_size),
+      long_work_(std::move(long_work)) {}
 
 bool Resources::OfMap::operator==(const OfMap& other) const {
   return scene::shine_alike(light, other.light) && plane == other.plane && near == other.near &&

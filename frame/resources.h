@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "frame/long_work.h"
 #include "frame/scene_buffers.h"
 #include "frame/shadow_map.h"
 #include "frame/shadow_plane.h"
@@ -34,7 +35,7 @@ class Resources {
   /// @param shadow_map_size side of a cube face [texels]
   /// @param scene of the same geometry; frames of several sizes may share it. Made here without.
   Resources(gpu::Context& context, const scene::Geometry& geometry, int shadow_map_size,
-            std::shared_ptr<const SceneBuffers> scene = {});
+            std::shared_ptr<const SceneBuffers> scene = {}, LongWork long_work = {});
 
   /// Where the frame's view has it.
   const scene::Geometry& geometry() const { return posed_ ? *posed_ : geometry_; }
@@ -42,6 +43,8 @@ class Resources {
   const scene::Geometry& geometry_at_rest() const { return geometry_; }
   const SceneBuffers& scene() const { return *scene_; }
   int shadow_map_size() const { return shadow_map_size_; }
+
+  const LongWork& long_work() const { return long_work_; }
 
   void begin_frame(Resting resting);
 
@@ -105,6 +108,7 @@ class Resources {
   std::unique_ptr<scene::Geometry> posed_;               ///< none at rest
   scene::Pose pose_;
   int shadow_map_size_;
+  LongWork long_work_;
 
   std::optional<ShadowMap> shadow_map_;
   std::optional<ShadowPlaneMap> shadow_plane_map_;

@@ -4,11 +4,14 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <random>
+#include <string>
 #include <utility>
 
 #include "frame/blocks.h"
 #include "frame/clusters.h"
+#include "surface_shadows/cluster_cache.h"
 #include "surface_shadows/tree_options.h"
 
 #include "spirv/surface_shadows/metric_tree_cones_comp.h"
@@ -49,20 +52,39 @@ MetricTree::MetricTree(const MetricTreeOptions& options)
       insert_program_(gpu::Pipeline::compute(k_metric_tree_insert_comp)),
       query_(query_pass(Counted::none)) {}
 
+/// As an earlier run has kept them, or made.
+TriangleClusters MetricTree::clusters_of(const frame::FrameInputs& inputs,
+                                         std::span<const std::uint32_t> object_of_triangle) const {
+  const scene::Geometry& geometry = inputs.resources.geometry_at_rest();
+  const std::vector<std::uint32_t>&order = inputs.scene.order(), &parts = culled_parts_.of_triangle();
+  const ClusterSettings settings = {.most_triangles = static_cast<std::uint32_t>(options_.cluster),
+                                    .has_capsules = options_.capsules == Use::on};
+  const auto& [cache, tell] = inputs.resources.long_work();
+  std::optional<TriangleClusters> clusters;
+  std::string key;
+  if (!cache.empty()) {
+    inputs.timer.time("kept_clusters", [&] {
+      key = key_of_clusters(geometry, order, parts, settings, object_of_triangle);
+      clusters = load_clusters(cache, key);
+    });
+    if (clusters) return *std::move(clusters);
+  }
+  scene::Progress progress;
+  if (tell) progress = [&](double fraction) { tell("clusters of triangles", fraction); };
+  inputs.timer.time("triangle_clusters", [&] {
+    clusters = make_triangle_clusters(geometry, order, parts, settings, object_of_triangle, progress);
+  });
+  if (!cache.empty()) save_clusters(cache, key, *clusters);
+  return *std::move(clusters);
+}
+
 void MetricTree::load(const frame::FrameInputs& inputs) {
   objects_ = inputs.view.pose.objects;
   std::vector<std::uint32_t> object_of_triangle;
   if (objects_)
     for (const std::uint32_t triangle : inputs.scene.order())
       object_of_triangle.push_back(objects_->of_triangle[triangle]);
-  TriangleClusters made;
-  inputs.timer.time("triangle_clusters", [&] {
-    made = make_triangle_clusters(inputs.resources.geometry_at_rest(), inputs.scene.order(),
-                                  culled_parts_.of_triangle(),
-                                  {.most_triangles = static_cast<std::uint32_t>(options_.cluster),
-                                   .has_capsules = options_.capsules == Use::on},
-                                  object_of_triangle);
-  });
+  TriangleClusters made = clusters_of(inputs, object_of_triangle);
   // Their numbers are the order in which they are inserted.
   std::shuffle(made.clusters.begin(), made.clusters.end(),
                std::mt19937(static_cast<std::uint32_t>(options_.seed)));

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,8 @@ class MetricTree : public frame::SurfaceShadow {
   };
   static Distances distances(const frame::FrameInputs& inputs, const LightScale& scale);
 
+  TriangleClusters clusters_of(const frame::FrameInputs& inputs,
+                               std::span<const std::uint32_t> object_of_triangle) const;
   void load(const frame::FrameInputs& inputs);
   void require_clusters(const frame::FrameInputs& inputs);
   void move_clusters(const scene::Pose& pose) const;

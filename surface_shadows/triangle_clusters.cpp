@@ -8,8 +8,6 @@
 #include <random>
 #include <utility>
 
-#include "scene/parallel.h"
-
 namespace airlight::surface_shadows {
 namespace {
 
@@ -125,7 +123,8 @@ class Chunk {
 TriangleClusters make_triangle_clusters(const scene::Geometry& geometry, std::span<const std::uint32_t> order,
                                         std::span<const std::uint32_t> part_of_triangle,
                                         const ClusterSettings& settings,
-                                        std::span<const std::uint32_t> object_of_triangle) {
+                                        std::span<const std::uint32_t> object_of_triangle,
+                                        const scene::Progress& progress) {
   TriangleClusters result;
   result.triangles.resize(order.size());
   std::iota(result.triangles.begin(), result.triangles.end(), 0u);
@@ -174,7 +173,8 @@ TriangleClusters make_triangle_clusters(const scene::Geometry& geometry, std::sp
       first = end;
     }
   };
-  scene::parallel(static_cast<int>(of_chunks.size()), [&] { return cut_chunk; });
+  scene::parallel(
+      static_cast<int>(of_chunks.size()), [&] { return cut_chunk; }, progress);
   for (const std::vector<TriangleCluster>& of_chunk : of_chunks)
     result.clusters.insert(result.clusters.end(), of_chunk.begin(), of_chunk.end());
   return result;

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "scene/parallel.h"
 #include "scene/scene.h"
 #include "surface_shadows/cluster_bounds.h"
 
@@ -42,6 +43,7 @@ struct ClusterSettings {
 TriangleClusters make_triangle_clusters(const scene::Geometry& geometry, std::span<const std::uint32_t> order,
                                         std::span<const std::uint32_t> part_of_triangle,
                                         const ClusterSettings& settings,
-                                        std::span<const std::uint32_t> object_of_triangle = {});
+                                        std::span<const std::uint32_t> object_of_triangle = {},
+                                        const scene::Progress& progress = {});
 
 }  // namespace airlight::surface_shadows

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <filesystem>
 #include <random>
 #include <string>
 #include <utility>
@@ -261,6 +262,33 @@ TEST_F(TreesOfClusters, OfAClosedMeshAroundTheLight) {
   view.camera.vertical_fov_degrees = 120;
   for (const int cluster : {1, 4, 16})
     EXPECT_EQ(count_lit(by_tree(geometry, view, {.cluster = cluster})), 0u);
+}
+
+TEST(MetricTree, KeepsItsClustersForTheNextRun) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "airlight_kept_clusters";
+  std::filesystem::remove_all(folder);
+  const ShadowCase& given = shadow_cases()[3];
+  std::vector<std::string> told;
+  const auto look = [&](const MetricTreeOptions& options, const std::string& made) {
+    frame::Frame frame(tests::gpu_context(), given.geometry, 16, {},
+                       {folder, [&](const std::string& what, double) { told.push_back(what); }});
+    frame::NoAirlight no_airlight;
+    gpu::StageTimer timer(&tests::gpu_context());
+    MetricTree tree(options);
+    frame.render(given.view, tree, no_airlight, timer);
+    EXPECT_TRUE(timer.milliseconds().contains("kept_clusters"));
+    EXPECT_EQ(timer.milliseconds().contains("triangle_clusters"), made == "made");
+    EXPECT_EQ(told.empty(), made != "made");
+    told.clear();
+    EXPECT_TRUE(frame.read().visibility.at(0) == by_brute(given.geometry, given.view));
+  };
+  look({}, "made");
+  look({}, "kept");
+  look({.seed = 3}, "kept");
+  look({.cluster = 8}, "made");
+  look({.capsules = Use::off}, "made");
+  look({.cluster = 8}, "kept");
+  std::filesystem::remove_all(folder);
 }
 
 /// Means over all pixels.

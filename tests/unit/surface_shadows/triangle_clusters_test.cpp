@@ -76,6 +76,16 @@ TEST(TriangleClusters, AreTheSameEachTime) {
   }
 }
 
+TEST(TriangleClusters, TellHowFarTheyAre) {
+  const scene::Geometry& geometry = tests::builtin("toroid").geometry;
+  std::vector<double> told;
+  make_triangle_clusters(geometry, order_of(geometry), {}, {}, {},
+                         [&](double fraction) { told.push_back(fraction); });
+  EXPECT_GT(told.size(), 3u);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_EQ(told.back(), 1.0);
+}
+
 TEST(TriangleClusters, SpanNoParts) {
   const scene::Geometry& geometry = tests::builtin("cornell").geometry;
   const std::vector<std::uint32_t> order = order_of(geometry);
