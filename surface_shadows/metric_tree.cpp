@@ -12,6 +12,7 @@
 #include "frame/blocks.h"
 #include "frame/clusters.h"
 #include "surface_shadows/cluster_cache.h"
+#include "surface_shadows/median_tree.h"
 #include "surface_shadows/tree_options.h"
 
 #include "spirv/surface_shadows/metric_tree_cones_comp.h"
@@ -25,7 +26,7 @@ namespace airlight::shaders {
 namespace airlight::surface_shadows {
 namespace {
 
-constexpr std::int64_t k_node_bytes = 64;   ///< of a MetricNode of shaders/surface_shadows/metric_tree.glsl
+constexpr std::int64_t k_node_bytes = sizeof(MetricNode);
 constexpr std::int64_t k_half_spaces = 32;  ///< more than any light's view has
 constexpr const char* k_remedy = "let clusters have more triangles (metric-tree:cluster=N)";
 
@@ -41,7 +42,8 @@ frame::ScreenPass MetricTree::query_pass(Counted counted) const {
       std::array{gpu::Constant(0, static_cast<std::uint32_t>(counted)),
                  gpu::Constant(1, flag(options_.distance_cull)),
                  gpu::Constant(2, flag(options_.interval_cull)), gpu::Constant(3, flag(options_.slabs)),
-                 gpu::Constant(4, static_cast<std::uint32_t>(options_.stack))});
+                 gpu::Constant(4, static_cast<std::uint32_t>(options_.stack)),
+                 gpu::Constant(5, options_.build == Build::median ? 1u : 0u)});
 }
 
 MetricTree::MetricTree(const MetricTreeOptions& options)
@@ -106,6 +108,10 @@ void MetricTree::load(const frame::FrameInputs& inputs) {
   triangle_texels_ = {limits, triangles_, gpu::Format::r32ui, "the model's triangles"};
   node_texels_ = {limits, nodes_, gpu::Format::rgba32ui, "the tree of the model's clusters"};
   always_asked_texels_ = {limits, always_asked_, gpu::Format::r32ui, "the model's clusters"};
+  if (options_.build == Build::median) {
+    partition_distances_ = gpu::Buffer(std::int64_t{sizeof(float)} * (cluster_count_ + 1));
+    partition_distance_texels_ = {limits, partition_distances_, gpu::Format::r32f, "the model's clusters"};
+  }
   at_rest_ = inputs.scene.id_at_rest();
 
   clusters_at_rest_.clear();
@@ -216,11 +222,25 @@ void MetricTree::build(const frame::FrameInputs& inputs) {
   cones_program_.set(4, write_light_view(inputs));
   cones_program_.dispatch({cluster_count_, 1, 1});
 
+  if (options_.build == Build::median) return link_on_cpu(inputs, of_light);
   insert_program_.set(0, cluster_count_);
   insert_program_.set(1, of_light.error);
   insert_program_.set(2, of_light.root_distance);
   insert_program_.set(3, of_light.slack);
   insert_program_.dispatch({cluster_count_, 1, 1});
+}
+
+void MetricTree::link_on_cpu(const frame::FrameInputs& inputs, const Distances& of_light) const {
+  std::vector<MetricNode> nodes = nodes_.read<MetricNode>();
+  const scene::Light& light = inputs.light();
+  const std::vector<float> distances = link_median_tree(nodes,
+                                                        {.travels = -glm::vec3(light.towards),
+                                                         .is_sun = scene::is_sun(light),
+                                                         .error = of_light.error,
+                                                         .slack = of_light.slack},
+                                                        static_cast<std::uint32_t>(options_.seed));
+  nodes_.write(nodes.data(), nodes_.bytes());
+  partition_distances_.write(distances.data(), partition_distances_.bytes());
 }
 
 void MetricTree::run(const frame::ScreenPass& pass, const frame::FrameInputs& inputs,
@@ -233,6 +253,8 @@ void MetricTree::run(const frame::ScreenPass& pass, const frame::FrameInputs& in
   triangle_texels_.bind_sampler(shaders::k_cluster_triangles_unit);
   always_asked_texels_.bind_sampler(shaders::k_always_asked_unit);
   node_texels_.bind_sampler(shaders::k_metric_tree_unit);
+  if (options_.build == Build::median)
+    partition_distance_texels_.bind_sampler(shaders::k_partition_distances_unit);
   const frame::LightOrigin origin = inputs.resources.origin();
   const Distances of_light = distances(inputs, scale_);
   pass.pipeline().set(0, origin.high);
@@ -240,8 +262,8 @@ void MetricTree::run(const frame::ScreenPass& pass, const frame::FrameInputs& in
   pass.pipeline().set(2, scale_.scale);
   pass.pipeline().set(3, of_light.error);
   pass.pipeline().set(4, of_light.slack);
-  pass.pipeline().set(5, of_light.root_distance);
   // Without these the shader has no use for it, and no place.
+  if (options_.build == Build::gpu) pass.pipeline().set(5, of_light.root_distance);
   if (options_.slabs == Use::on || options_.distance_cull == Use::on) pass.pipeline().set(6, scale_.reach);
   pass.run({image});
 }
@@ -279,7 +301,8 @@ std::map<std::string, double> MetricTree::counters(const frame::FrameInputs& inp
 
 std::map<std::string, std::int64_t> MetricTree::bytes() const {
   return {{"clusters", clusters_.bytes() + triangles_.bytes()},
-          {"tree", nodes_.bytes() + always_asked_.bytes() + light_view_.bytes() + culled_parts_.bytes()}};
+          {"tree", nodes_.bytes() + partition_distances_.bytes() + always_asked_.bytes() +
+                       light_view_.bytes() + culled_parts_.bytes()}};
 }
 
 frame::SurfaceMethod metric_tree_method() {
@@ -314,7 +337,17 @@ frame::SurfaceMethod metric_tree_method() {
                   "off visits more nodes", &Options::interval_cull),
        use_option("light-view", "whether clusters are left out of the tree that hide nothing in view",
                   "off has a larger tree", &Options::light_view),
-       culling_option(&Options::cull), seed_option(&Options::seed), stack_option(&Options::stack)},
+       culling_option(&Options::cull),
+       frame::word_option<Options, Build>(
+           {.name = "build",
+            .meaning = "who makes the tree",
+            .quality = "none",
+            .cost = "median visits fewer nodes of a tree that takes the CPU long",
+            .sweep = {"gpu", "median"}},
+           {{"gpu", "the GPU, by insertion"},
+            {"median", "the CPU, with medians and pivots chosen among many"}},
+           &Options::build),
+       seed_option(&Options::seed), stack_option(&Options::stack)},
       [](const gpu::Context&, const Options& options) { return std::make_unique<MetricTree>(options); });
 }
 

@@ -17,6 +17,12 @@ namespace airlight::surface_shadows {
 
 enum class Use { on, off };
 
+/// Who makes the tree.
+enum class Build {
+  gpu,     ///< in each frame, by insertion
+  median,  ///< the CPU in each frame, as well as it can: see link_median_tree
+};
+
 struct MetricTreeOptions {
   int cluster = 16;             ///< triangles of one at most
   Use capsules = Use::on;       ///< to bound clusters that are long; else spheres alone
@@ -26,7 +32,8 @@ struct MetricTreeOptions {
   Use interval_cull = Use::on;  ///< of overlap subtrees at other distances from their pivot
   Use light_view = Use::on;     ///< to leave out clusters that hide nothing of what the eye may see
   Culling cull = Culling::none;
-  int seed = 1;    ///< of the random order
+  Build build = Build::gpu;
+  int seed = 1;    ///< of the random order, or of the choices of `median`
   int stack = 32;  ///< nodes that a pixel's stack holds
 
   bool ignores_cut_outs() const { return true; }
@@ -73,6 +80,7 @@ class MetricTree : public frame::SurfaceShadow {
   void require_clusters(const frame::FrameInputs& inputs);
   void move_clusters(const scene::Pose& pose) const;
   void build(const frame::FrameInputs& inputs);
+  void link_on_cpu(const frame::FrameInputs& inputs, const Distances& of_light) const;
   std::uint32_t write_light_view(const frame::FrameInputs& inputs) const;
   void run(const frame::ScreenPass& pass, const frame::FrameInputs& inputs, const gpu::Texture& image) const;
   frame::ScreenPass query_pass(Counted counted) const;
@@ -92,7 +100,9 @@ class MetricTree : public frame::SurfaceShadow {
   CulledParts culled_parts_;
   LightScale scale_;
   gpu::Buffer clusters_, triangles_, nodes_, always_asked_, light_view_;
-  gpu::TexelView cluster_texels_, triangle_texels_, node_texels_, always_asked_texels_;
+  gpu::Buffer partition_distances_;  ///< of Build::median: δ of each node
+  gpu::TexelView cluster_texels_, triangle_texels_, node_texels_, always_asked_texels_,
+      partition_distance_texels_;
 };
 
 frame::SurfaceMethod metric_tree_method();

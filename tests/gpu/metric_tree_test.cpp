@@ -59,7 +59,10 @@ std::vector<Setting> settings() {
           {"other seed", {.seed = 2}},
           {"a stack of one", {.stack = 1}},
           {"a stack of one, one triangle", {.cluster = 1, .stack = 1}},
-          {"a stack of three", {.cluster = 2, .stack = 3}}};
+          {"a stack of three", {.cluster = 2, .stack = 3}},
+          {"medians", {.build = Build::median}},
+          {"medians, one triangle", {.cluster = 1, .build = Build::median}},
+          {"medians, a stack of one", {.cluster = 3, .build = Build::median, .stack = 1}}};
 }
 
 /// Keeps the methods, whose shaders take a driver long to make, for all tests of a suite.
@@ -72,6 +75,8 @@ class Trees : public testing::Test {
         culled_.emplace_back(
             "culled",
             MetricTreeOptions{.cluster = cluster, .normal_cones = normal_cones, .cull = Culling::automatic});
+    culled_.emplace_back("culled, medians",
+                         MetricTreeOptions{.cull = Culling::automatic, .build = Build::median});
   }
   static void TearDownTestSuite() {
     exact_.clear();
@@ -329,6 +334,7 @@ TEST(MetricTree, IsSparedWorkByEachOfItsMeans) {
   EXPECT_GT(without({.distance_cull = Use::off}).nodes, usual.nodes);
   EXPECT_GT(without({.slabs = Use::off}).triangles, usual.triangles);
   const scene::Geometry long_ones = pickets();
+  EXPECT_LT(without({.build = Build::median}).nodes, 1.3 * usual.nodes);
   EXPECT_LT(cost_of(long_ones, given.view, {}).triangles,
             0.9 * cost_of(long_ones, given.view, {.capsules = Use::off}).triangles);
 }
