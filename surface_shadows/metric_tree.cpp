@@ -46,8 +46,9 @@ frame::ScreenPass MetricTree::query_pass(Counted counted) const {
                  gpu::Constant(5, options_.build == Build::median ? 1u : 0u)});
 }
 
-MetricTree::MetricTree(const MetricTreeOptions& options)
+MetricTree::MetricTree(const MetricTreeOptions& options, std::optional<gpu::Limits> limits)
     : options_(options),
+      limits_(limits),
       cones_program_(gpu::Pipeline::compute(
           k_metric_tree_cones_comp, std::array{gpu::Constant(0, options.cull == Culling::automatic ? 1u : 0u),
                                                gpu::Constant(1, flag(options.normal_cones))})),
@@ -96,7 +97,7 @@ void MetricTree::load(const frame::FrameInputs& inputs) {
                     [](const TriangleCluster& cluster) { return !cluster.bounds.is_sphere(); });
   capsule_share_ = static_cast<double>(capsules) / std::max(1.0, static_cast<double>(cluster_count_));
 
-  const gpu::Limits& limits = inputs.context.limits();
+  const gpu::Limits& limits = limits_ ? *limits_ : inputs.context.limits();
   const std::int64_t node_bytes = k_node_bytes * (std::int64_t{cluster_count_} + 1);
   gpu::require_storage_block(limits, node_bytes, "the tree of the model's clusters", k_remedy);
   clusters_ = gpu::Buffer::from(std::span<const TriangleCluster>(made.clusters));

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -46,7 +47,9 @@ struct MetricTreeOptions {
 /// Based on: see shaders/surface_shadows/metric_tree.glsl and triangle_clusters.h.
 class MetricTree : public frame::SurfaceShadow {
  public:
-  explicit MetricTree(const MetricTreeOptions& options);
+  /// @param limits of its buffers; without, the driver's
+  explicit MetricTree(const MetricTreeOptions& options, std::optional<gpu::Limits> limits = {});
+  /// @throws scene::Error (driver) for more clusters than one storage block holds nodes of
   void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override;
   std::map<std::string, std::int64_t> bytes() const override;
   /// "surface_nodes" of the tree that pixels visit, "surface_clusters" and "surface_triangles" that they ask.
@@ -86,6 +89,7 @@ class MetricTree : public frame::SurfaceShadow {
   frame::ScreenPass query_pass(Counted counted) const;
 
   MetricTreeOptions options_;
+  std::optional<gpu::Limits> limits_;
   gpu::Pipeline cones_program_, insert_program_;
   frame::ScreenPass query_;
 

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/errors.h"
 #include "support/frame_probe.h"
 #include "support/random.h"
 #include "support/scenes.h"
@@ -267,6 +268,25 @@ TEST_F(TreesOfClusters, OfAClosedMeshAroundTheLight) {
   view.camera.vertical_fov_degrees = 120;
   for (const int cluster : {1, 4, 16})
     EXPECT_EQ(count_lit(by_tree(geometry, view, {.cluster = cluster})), 0u);
+}
+
+TEST(MetricTree, OfMoreClustersThanAStorageBlockHoldsIsAnErrorThatNamesTheLimit) {
+  const ShadowCase& given = shadow_cases()[3];
+  MetricTree usual({});
+  const std::vector<float> expected = visibility(given.geometry, given.view, usual);
+  gpu::Limits limits = tests::gpu_context().limits();
+  const std::int64_t bytes = 64 * (std::int64_t{usual.cluster_count()} + 1);
+  limits.max_storage_block_bytes = bytes;
+  MetricTree just({}, limits);
+  EXPECT_TRUE(visibility(given.geometry, given.view, just) == expected);
+  limits.max_storage_block_bytes = bytes - 1;
+  MetricTree more({}, limits);
+  tests::expect_error(scene::ExitCode::driver,
+                      {"the tree of the model's clusters", "GL_MAX_SHADER_STORAGE_BLOCK_SIZE",
+                       "let clusters have more triangles (metric-tree:cluster=N)"},
+                      [&] { visibility(given.geometry, given.view, more); });
+  MetricTree larger({.cluster = 32}, limits);
+  EXPECT_TRUE(visibility(given.geometry, given.view, larger) == expected) << "the remedy helps";
 }
 
 TEST(MetricTree, KeepsItsClustersForTheNextRun) {
