@@ -113,7 +113,8 @@ void compare(const Options& options) {
                   .bytes_per_pixel = bytes_of_compare(subject),
                   .shadow_map = quality::is_read("shadow-map", volumes, surfaces) ? shadow_map : 0,
                   .triangles = subject.scene.geometry.triangles.size(),
-                  .looks = bytes_of_looks(subject.scene.geometry)});
+                  .looks = bytes_of_looks(subject.scene.geometry),
+                  .scenes = subject.scenes()});
   const auto command = [&](const quality::VolumeChoice& volume, const quality::SurfaceChoice& surface) {
     // What is asked of all pairs is left out.
     return command_of_pair(options, volume, surface, {"json", "max-error", "max-undecided"});

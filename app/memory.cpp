@@ -58,8 +58,8 @@ void require_memory(const Holding& holding) {
   const double image = pixels * static_cast<double>(holding.bytes_per_pixel);
   const double side = holding.shadow_map > k_largest_face ? 0.0 : holding.shadow_map;
   const double shadow_map = 6.0 * sizeof(float) * side * side;
-  const double scene =
-      k_bytes_per_triangle * static_cast<double>(holding.triangles) + static_cast<double>(holding.looks);
+  const double scene = holding.scenes * (k_bytes_per_triangle * static_cast<double>(holding.triangles) +
+                                         static_cast<double>(holding.looks));
 
   const auto require = [&](double driver, std::optional<double> left, const char* of_what,
                            const char* remedy) {

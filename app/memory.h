@@ -15,6 +15,7 @@ struct Holding {
   int shadow_map = 0;               ///< side of a face of the shadow map [texels]; 0 for none
   std::size_t triangles = 0;
   std::size_t looks = 0;  ///< bytes of the model's textures and normals
+  int scenes = 1;         ///< how often all of that is there
 };
 
 /// What a model's textures and normals take, here and by the driver.

@@ -156,10 +156,12 @@ std::span<const OptionLine> common_options() {
     for (const scene::FieldInfo* field : scene::every_field())
       lines.push_back({field->name, field->placeholder, field->help()});
     lines.push_back(
-        {"path", "FILE.toml", "images along a path of camera and lights, whose key frames the file holds"});
+        {"path", "FILE.toml",
+         "images along a path of camera, lights and glTF nodes, whose key frames the file holds"});
     lines.push_back({"shadow-map", "N", "side of a face of the shadow map [texels] (default: 2048)"});
-    lines.push_back(
-        {"cache", "DIR", "keep the reference's images there, and look there before tracing them"});
+    lines.push_back({"cache", "DIR",
+                     "keep the reference's images and the clusters of metric-tree there, and look there "
+                     "before making them"});
     for (const quality::CommonOptionText& text : quality::common_option_texts())
       lines.push_back({text.name, "VALUE", text.help});
     return lines;
@@ -204,7 +206,7 @@ Subject make_subject(const Options& options) {
   }
   subject.exposure = subject.scene.exposure;
   if (const auto path = options.get("path")) {
-    subject.path = scene::load_path(*path, subject.view);
+    subject.path = scene::load_path(*path, subject.view, &subject.scene);
     subject.view = subject.path->views[0];
     for (const std::string& warning : subject.path->warnings)
       subject.scene.report.warnings.push_back(warning);

@@ -61,6 +61,9 @@ struct Subject {
   std::span<const scene::View> views() const {
     return path ? std::span<const scene::View>(path->views) : std::span(&view, 1);
   }
+
+  /// How many copies of the scene are held: where objects move, at rest and where they are.
+  int scenes() const { return path && path->moves_objects() ? 2 : 1; }
 };
 
 /// Loads the scene and makes all choices of the view.

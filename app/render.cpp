@@ -146,7 +146,8 @@ void render(const Options& options) {
                                      k_bytes_of_rendered_light * (subject.view.lights.size() - 1),
                   .shadow_map = quality::is_read("shadow-map", volumes, surfaces) ? shadow_map : 0,
                   .triangles = subject.scene.geometry.triangles.size(),
-                  .looks = bytes_of_looks(subject.scene.geometry)});
+                  .looks = bytes_of_looks(subject.scene.geometry),
+                  .scenes = subject.scenes()});
   Images images{.options = options,
                 .subject = subject,
                 .volume = volume,
@@ -159,7 +160,8 @@ void render(const Options& options) {
     const quality::Progress follow = progress.follower();
     gpu::Context context;
     images.renderer = context.device().renderer;
-    frame::Frame frame(context, subject.scene.geometry, shadow_map);
+    frame::Frame frame(context, subject.scene.geometry, shadow_map, {},
+                       {options.get("cache").value_or(""), follow});
     auto airlight = volume.method->make(context, volume.options);
     auto shadow = surface.method->make(context, surface.options);
     for (std::size_t i = 0; i < views.size(); ++i) {

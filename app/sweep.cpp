@@ -85,7 +85,8 @@ void sweep(const Options& options) {
        .bytes_per_pixel = bytes_of_compare(subject) + (shadow_maps.size() > 1 ? k_bytes_of_render : 0),
        .shadow_map = *std::max_element(shadow_maps.begin(), shadow_maps.end()),
        .triangles = subject.scene.geometry.triangles.size(),
-       .looks = bytes_of_looks(subject.scene.geometry)});
+       .looks = bytes_of_looks(subject.scene.geometry),
+       .scenes = subject.scenes()});
 
   const quality::Subject swept{quality::hash_of_subject(subject.scene.geometry, subject.views()),
                                options.scene, subject.scene, subject.views(), subject.path.has_value()};

@@ -30,6 +30,9 @@ void view(const Options& options) {
   require_gpu(volumes[0], "--volume");
   require_gpu(surfaces[0], "--surface");
   Subject subject = make_subject(options);
+  if (subject.path && subject.path->moves_objects())
+    throw scene::Error(scene::ExitCode::usage, "--path",
+                       "it moves nodes, and the window shows a model at rest", "render or compare it");
   if (!options.get("size")) subject.view.size = {1280, 720};
   take_usual_methods(options, subject, volumes, surfaces, shadow_map);
   viewer::Shown shown{subject.view, volumes[0],       surfaces[0],

@@ -80,15 +80,21 @@ Clusters make_clusters(const scene::Geometry& geometry) {
   // Cut it.
   for (std::uint32_t first = 0; first < count;) {
     const std::uint32_t end = first < result.first_cut_out ? result.first_cut_out : count;
-    Cluster cluster{first, std::min(k_cluster_triangles, end - first), {}};
+    result.clusters.push_back({first, std::min(k_cluster_triangles, end - first), {}});
+    first += result.clusters.back().triangle_count;
+  }
+  fit_boxes(result, geometry);
+  return result;
+}
+
+void fit_boxes(Clusters& clusters, const scene::Geometry& geometry) {
+  for (Cluster& cluster : clusters.clusters) {
+    cluster.box = {};
     for (std::uint32_t i = 0; i < cluster.triangle_count; ++i) {
-      const glm::uvec3 triangle = geometry.triangles[result.order[first + i]];
+      const glm::uvec3 triangle = geometry.triangles[clusters.order[cluster.first_triangle + i]];
       for (int corner = 0; corner < 3; ++corner) cluster.box.include(geometry.positions[triangle[corner]]);
     }
-    result.clusters.push_back(cluster);
-    first += cluster.triangle_count;
   }
-  return result;
 }
 
 std::vector<glm::dvec3> sides_of_cone(std::span<const glm::dvec3> directions, double rounding) {

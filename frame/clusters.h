@@ -30,6 +30,9 @@ inline constexpr std::uint32_t k_cluster_triangles = 128;
 /// Sorts triangles by the Morton code of their centroids, whole ones first.
 Clusters make_clusters(const scene::Geometry& geometry);
 
+/// Fits the clusters' boxes to where the geometry's positions are now.
+void fit_boxes(Clusters& clusters, const scene::Geometry& geometry);
+
 /// A pyramid without a base, open at infinity.
 struct Pyramid {
   glm::dvec3 apex;                 ///< world space

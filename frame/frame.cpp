@@ -105,9 +105,9 @@ void write_block(const gpu::Buffer& buffer, const Block& block, unsigned binding
 }  // namespace
 
 Frame::Frame(gpu::Context& context, const scene::Geometry& geometry, int shadow_map_size,
-             std::shared_ptr<const SceneBuffers> scene)
+             std::shared_ptr<const SceneBuffers> scene, LongWork long_work)
     : context_(context),
-      resources_(context, geometry, shadow_map_size, std::move(scene)),
+      resources_(context, geometry, shadow_map_size, std::move(scene), std::move(long_work)),
       camera_block_(sizeof(shaders::CameraBlock)),
       light_block_(sizeof(shaders::LightBlock)),
       medium_block_(sizeof(shaders::MediumBlock)) {}
@@ -144,11 +144,12 @@ void Frame::render(const scene::View& view, SurfaceShadow& surface_shadow, Airli
   scene::validate(view);
   require_images(view, surface_shadow.visibility_format(resources_.scene()));
   resources_.begin_frame(resting);
+  timer.begin_part({});
+  resources_.pose(view.pose, timer);
   const scene::CameraFrame camera = scene::camera_frame(view.camera, view.size);
   const SceneBuffers& scene = resources_.scene();
 
   // What the camera sees.
-  timer.begin_part({});
   float near = 0.0f;
   timer.time("surfaces", [&] {
     double distance = std::numeric_limits<double>::infinity();

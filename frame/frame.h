@@ -45,9 +45,9 @@ class Frame {
  public:
   /// @param geometry kept by reference: it must outlive the frame
   /// @param shadow_map_size side of a cube face [texels]; used only by methods that ask for a shadow map
-  /// @param scene see Resources
+  /// @param scene, long_work see Resources
   Frame(gpu::Context& context, const scene::Geometry& geometry, int shadow_map_size,
-        std::shared_ptr<const SceneBuffers> scene = {});
+        std::shared_ptr<const SceneBuffers> scene = {}, LongWork long_work = {});
 
   /// Issues all work of one frame to the GPU, without waiting for it where `timer` is off. Of the timer's
   /// parts number i is that of light i. A light that cannot reach the view is skipped, unless a method sees

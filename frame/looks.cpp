@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -65,57 +67,69 @@ gpu::Texture store(const gpu::Context& context, std::span<const scene::TextureIm
 
 }  // namespace
 
+Looks::Textures::Textures(const gpu::Context& context, const scene::Geometry& geometry,
+                          std::span<const std::uint32_t> order) {
+  texels = store(context, geometry.textures);
+  std::vector<std::uint32_t> first_texels;
+  std::uint64_t first = 0;
+  for (const scene::TextureImage& texture : geometry.textures) {
+    first_texels.push_back(static_cast<std::uint32_t>(first));
+    first += texels_with_levels(texture.size);
+  }
+  std::vector<glm::uvec4> infos;
+  for (const scene::Material& material : geometry.materials) {
+    const auto add = [&](std::optional<std::uint32_t> texture, float least_alpha) {
+      glm::uvec4& info = infos.emplace_back(0u);
+      if (!texture) return;
+      const glm::uvec2 size(geometry.textures[*texture].size);
+      info = {first_texels[*texture], size.x | size.y << 16,
+              static_cast<std::uint32_t>(material.wrap[0]) | static_cast<std::uint32_t>(material.wrap[1])
+                                                                 << 4,
+              std::bit_cast<std::uint32_t>(least_alpha)};
+    };
+    add(material.texture, 0.0f);
+    if (const std::optional<scene::CutOut>& mask = material.cut_out)
+      add(mask->texture, mask->least_alpha);
+    else
+      add({}, 0.0f);
+  }
+  std::vector<std::array<glm::vec2, 3>> texture_places;
+  texture_places.reserve(order.size());
+  for (const std::uint32_t triangle : order) texture_places.push_back(geometry.texture_places[triangle]);
+  of_materials = gpu::Buffer::from(std::span<const glm::uvec4>(infos));
+  places = gpu::Buffer::from(std::span<const std::array<glm::vec2, 3>>(texture_places));
+  of_material_texels = {context.limits(), of_materials, gpu::Format::rgba32ui, "the model's materials"};
+  place_texels = {context.limits(), places, gpu::Format::rg32f, "the model's texture coordinates"};
+}
+
 Looks::Looks(const gpu::Context& context, const scene::Geometry& geometry,
              std::span<const std::uint32_t> order)
-    : has_textures_(!geometry.textures.empty()),
-      has_normals_(!geometry.normals.empty()),
-      pass_(k_looks_frag, std::array{gpu::Constant(0, has_textures_), gpu::Constant(1, has_normals_)}) {
-  if (has_textures_) {
-    texels_ = store(context, geometry.textures);
-    std::vector<std::uint32_t> first_texels;
-    std::uint64_t first = 0;
-    for (const scene::TextureImage& texture : geometry.textures) {
-      first_texels.push_back(static_cast<std::uint32_t>(first));
-      first += texels_with_levels(texture.size);
-    }
-    std::vector<glm::uvec4> of_materials;
-    for (const scene::Material& material : geometry.materials) {
-      const auto add = [&](std::optional<std::uint32_t> texture, float least_alpha) {
-        glm::uvec4& info = of_materials.emplace_back(0u);
-        if (!texture) return;
-        const glm::uvec2 size(geometry.textures[*texture].size);
-        info = {first_texels[*texture], size.x | size.y << 16,
-                static_cast<std::uint32_t>(material.wrap[0]) | static_cast<std::uint32_t>(material.wrap[1])
-                                                                   << 4,
-                std::bit_cast<std::uint32_t>(least_alpha)};
-      };
-      add(material.texture, 0.0f);
-      if (const std::optional<scene::CutOut>& mask = material.cut_out)
-        add(mask->texture, mask->least_alpha);
-      else
-        add({}, 0.0f);
-    }
-    std::vector<std::array<glm::vec2, 3>> places;
-    places.reserve(order.size());
-    for (const std::uint32_t triangle : order) places.push_back(geometry.texture_places[triangle]);
-    material_textures_ = gpu::Buffer::from(std::span<const glm::uvec4>(of_materials));
-    texture_places_ = gpu::Buffer::from(std::span<const std::array<glm::vec2, 3>>(places));
-    material_texture_texels_ = {context.limits(), material_textures_, gpu::Format::rgba32ui,
-                                "the model's materials"};
-    texture_place_texels_ = {context.limits(), texture_places_, gpu::Format::rg32f,
-                             "the model's texture coordinates"};
+    : Looks(context, geometry, order,
+            geometry.textures.empty() ? nullptr : std::make_shared<const Textures>(context, geometry, order),
+            std::make_shared<const ScreenPass>(k_looks_frag,
+                                               std::array{gpu::Constant(0, !geometry.textures.empty()),
+                                                          gpu::Constant(1, !geometry.normals.empty())})) {}
+
+Looks::Looks(const gpu::Context& context, const scene::Geometry& posed, std::span<const std::uint32_t> order,
+             const Looks& at_rest)
+    : Looks(context, posed, order, at_rest.textures_, at_rest.pass_) {
+  owns_textures_ = false;
+}
+
+Looks::Looks(const gpu::Context& context, const scene::Geometry& geometry,
+             std::span<const std::uint32_t> order, std::shared_ptr<const Textures> textures,
+             std::shared_ptr<const ScreenPass> pass)
+    : textures_(std::move(textures)), has_normals_(!geometry.normals.empty()), pass_(std::move(pass)) {
+  if (!has_normals_) return;
+  std::vector<glm::uvec3> normals;
+  normals.reserve(order.size());
+  for (const std::uint32_t triangle : order) {
+    const std::array<glm::vec3, 3>& n = geometry.normals[triangle];
+    normals.emplace_back(shaders::octahedron_of(n[0]), shaders::octahedron_of(n[1]),
+                         shaders::octahedron_of(n[2]));
   }
-  if (has_normals_) {
-    std::vector<glm::uvec3> normals;
-    normals.reserve(order.size());
-    for (const std::uint32_t triangle : order) {
-      const std::array<glm::vec3, 3>& n = geometry.normals[triangle];
-      normals.emplace_back(shaders::octahedron_of(n[0]), shaders::octahedron_of(n[1]),
-                           shaders::octahedron_of(n[2]));
-    }
-    normals_ = gpu::Buffer::from(std::span<const glm::uvec3>(normals));
-    normal_texels_ = {context.limits(), normals_, gpu::Format::rgb32ui, "the model's normals"};
-  }
+  normals_ = gpu::Buffer::from(std::span<const glm::uvec3>(normals));
+  normal_texels_ = {context.limits(), normals_, gpu::Format::rgb32ui, "the model's normals"};
 }
 
 void Looks::draw(const SceneBuffers& scene, const gpu::Texture& triangles, LookImages& images) const {
@@ -124,19 +138,21 @@ void Looks::draw(const SceneBuffers& scene, const gpu::Texture& triangles, LookI
   scene.bind_samplers();
   triangles.bind_sampler(shaders::k_triangle_unit);
   bind_textures();
-  if (has_textures_) texture_place_texels_.bind_sampler(shaders::k_texture_places_unit);
+  if (textures_) textures_->place_texels.bind_sampler(shaders::k_texture_places_unit);
   if (has_normals_) normal_texels_.bind_sampler(shaders::k_normals_unit);
-  pass_.run({images.base_colours, images.shading_normals});
+  pass_->run({images.base_colours, images.shading_normals});
 }
 
 void Looks::bind_textures() const {
-  if (!has_textures_) return;
-  texels_.bind_sampler(shaders::k_texels_unit);
-  material_texture_texels_.bind_sampler(shaders::k_material_textures_unit);
+  if (!textures_) return;
+  textures_->texels.bind_sampler(shaders::k_texels_unit);
+  textures_->of_material_texels.bind_sampler(shaders::k_material_textures_unit);
 }
 
 std::int64_t Looks::bytes() const {
-  return (has_textures_ ? texels_.bytes() : 0) + material_textures_.bytes() + texture_places_.bytes() +
+  return (textures_ && owns_textures_
+              ? textures_->texels.bytes() + textures_->of_materials.bytes() + textures_->places.bytes()
+              : 0) +
          normals_.bytes();
 }
 

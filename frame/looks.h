@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 
 #include "frame/screen_pass.h"
@@ -32,15 +33,19 @@ class Looks {
   /// @throws scene::Error (driver) when a buffer or the textures would be larger than the driver allows.
   Looks(const gpu::Context& context, const scene::Geometry& geometry, std::span<const std::uint32_t> order);
 
+  /// Of the same model in another pose, which has other normals.
+  Looks(const gpu::Context& context, const scene::Geometry& posed, std::span<const std::uint32_t> order,
+        const Looks& at_rest);
+
   /// Whether a model has any.
   static bool are_in(const scene::Geometry& geometry) {
     return !geometry.textures.empty() || !geometry.normals.empty();
   }
-  bool has_textures() const { return has_textures_; }
+  bool has_textures() const { return textures_ != nullptr; }
   bool has_normals() const { return has_normals_; }
 
-  /// Of each triangle's corners, in its order: vec2, three a triangle. Empty without textures.
-  const gpu::Buffer& texture_places() const { return texture_places_; }
+  /// Of each triangle's corners, in its order: vec2, three a triangle. There are textures.
+  const gpu::Buffer& texture_places() const { return textures_->places; }
 
   /// Binds textures and what materials have of them (shaders/frame/textures.glsl), where there are any.
   void bind_textures() const;
@@ -49,14 +54,28 @@ class Looks {
   /// @param scene whose looks these are @param triangles as of GBuffer
   void draw(const SceneBuffers& scene, const gpu::Texture& triangles, LookImages& images) const;
 
+  /// Without what those of the model at rest hold.
   std::int64_t bytes() const;
 
  private:
-  gpu::Texture texels_;  ///< of all textures: shaders/frame/texture_filter.glsl
-  bool has_textures_, has_normals_;
-  gpu::Buffer material_textures_, texture_places_, normals_;
-  gpu::TexelView material_texture_texels_, texture_place_texels_, normal_texels_;
-  ScreenPass pass_;
+  /// What stays in any pose.
+  struct Textures {
+    gpu::Texture texels;  ///< of all textures: shaders/frame/texture_filter.glsl
+    gpu::Buffer of_materials, places;
+    gpu::TexelView of_material_texels, place_texels;
+
+    Textures(const gpu::Context& context, const scene::Geometry& geometry,
+             std::span<const std::uint32_t> order);
+  };
+  Looks(const gpu::Context& context, const scene::Geometry& geometry, std::span<const std::uint32_t> order,
+        std::shared_ptr<const Textures> textures, std::shared_ptr<const ScreenPass> pass);
+
+  std::shared_ptr<const Textures> textures_;  ///< nullptr for none
+  bool owns_textures_ = true;                 ///< else the model at rest does
+  bool has_normals_;
+  gpu::Buffer normals_;
+  gpu::TexelView normal_texels_;
+  std::shared_ptr<const ScreenPass> pass_;
 };
 
 }  // namespace airlight::frame

@@ -14,11 +14,13 @@
 namespace airlight::frame {
 
 Resources::Resources(gpu::Context& context, const scene::Geometry& geometry, int shadow_map_size,
-                     std::shared_ptr<const SceneBuffers> scene)
+                     std::shared_ptr<const SceneBuffers> scene, LongWork long_work)
     : context_(context),
       geometry_(geometry),
-      scene_(scene ? std::move(scene) : std::make_shared<const SceneBuffers>(context, geometry)),
-      shadow_map_size_(shadow_map_size) {}
+      at_rest_(scene ? std::move(scene) : std::make_shared<const SceneBuffers>(context, geometry)),
+      scene_(at_rest_),
+      shadow_map_size_(shadow_map_size),
+      long_work_(std::move(long_work)) {}
 
 bool Resources::OfMap::operator==(const OfMap& other) const {
   return scene::shine_alike(light, other.light) && plane == other.plane && near == other.near &&
@@ -33,6 +35,31 @@ void Resources::begin_frame(Resting resting) {
   for (auto& texture : light_textures_) texture.second.is_used = false;
   resting_ = resting;
   redrawn_.clear();
+}
+
+void Resources::pose(const scene::Pose& pose, gpu::StageTimer& timer) {
+  if (pose == pose_) return;
+  if (pose.is_at_rest() && !posed_) {
+    pose_ = pose;
+    return;
+  }
+  timer.time("pose", [&] {
+    if (pose.is_at_rest() || pose.objects != pose_.objects) {
+      scene_ = at_rest_;
+      posed_.reset();
+    }
+    if (!pose.is_at_rest()) {
+      if (!posed_) posed_ = std::make_unique<scene::Geometry>(geometry_);
+      scene::set_pose(*posed_, geometry_, pose);
+      scene_ = std::make_shared<const SceneBuffers>(context_, *posed_, *at_rest_);
+    }
+  });
+  pose_ = pose;
+  triangle_plane_texels_.reset();
+  edges_.reset();
+  components_.reset();
+  drawn_plane_map_.reset();
+  drawn_cube_.reset();
 }
 
 void Resources::begin_light(const scene::Light& light, const scene::CameraFrame& camera) {
@@ -112,7 +139,7 @@ const gpu::TexelView& Resources::triangle_planes(gpu::StageTimer& timer) {
   used_triangle_planes_ = true;
   if (triangle_plane_texels_) return *triangle_plane_texels_;
   timer.time("triangle_planes", [&] {
-    const std::vector<std::uint32_t> of_geometry = scene::planes_of(geometry_);
+    const std::vector<std::uint32_t> of_geometry = scene::planes_of(geometry());
     std::vector<std::uint32_t> planes;
     planes.reserve(of_geometry.size());
     for (const std::uint32_t triangle : scene_->order()) planes.push_back(of_geometry[triangle]);
@@ -124,20 +151,21 @@ const gpu::TexelView& Resources::triangle_planes(gpu::StageTimer& timer) {
 }
 
 const scene::Edges& Resources::edges(gpu::StageTimer& timer) {
-  if (!edges_) timer.time("edges", [&] { edges_ = scene::find_edges(geometry_); });
+  if (!edges_) timer.time("edges", [&] { edges_ = scene::find_edges(geometry()); });
   return *edges_;
 }
 
 const scene::Components& Resources::components(gpu::StageTimer& timer) {
   if (!components_) {
     const scene::Edges& of_scene = edges(timer);
-    timer.time("components", [&] { components_ = scene::find_components(geometry_, of_scene); });
+    timer.time("components", [&] { components_ = scene::find_components(geometry(), of_scene); });
   }
   return *components_;
 }
 
 std::map<std::string, std::int64_t> Resources::bytes() const {
-  std::map<std::string, std::int64_t> bytes = {{"scene", scene_->bytes()}};
+  std::map<std::string, std::int64_t> bytes = {{"scene", at_rest_->bytes()}};
+  if (posed_) bytes["scene"] += scene_->bytes();
   if (shadow_map_bytes_ > 0) bytes["shadow_map"] = shadow_map_bytes_;
   if (used_triangle_planes_) bytes["triangle_planes"] = triangle_planes_.bytes();
   if (used_surface_points_) bytes["surface_points"] = surface_points_.bytes();

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "frame/long_work.h"
 #include "frame/scene_buffers.h"
 #include "frame/shadow_map.h"
 #include "frame/shadow_plane.h"
@@ -34,13 +35,22 @@ class Resources {
   /// @param shadow_map_size side of a cube face [texels]
   /// @param scene of the same geometry; frames of several sizes may share it. Made here without.
   Resources(gpu::Context& context, const scene::Geometry& geometry, int shadow_map_size,
-            std::shared_ptr<const SceneBuffers> scene = {});
+            std::shared_ptr<const SceneBuffers> scene = {}, LongWork long_work = {});
 
-  const scene::Geometry& geometry() const { return geometry_; }
+  /// Where the frame's view has it.
+  const scene::Geometry& geometry() const { return posed_ ? *posed_ : geometry_; }
+  /// Where the scene has it.
+  const scene::Geometry& geometry_at_rest() const { return geometry_; }
   const SceneBuffers& scene() const { return *scene_; }
   int shadow_map_size() const { return shadow_map_size_; }
 
+  const LongWork& long_work() const { return long_work_; }
+
   void begin_frame(Resting resting);
+
+  /// Puts the scene's objects where the frame's view has them. Stage `pose`, where that is elsewhere than
+  /// before: all that was made of the scene then goes, but for what SceneBuffers::id_at_rest keeps.
+  void pose(const scene::Pose& pose, gpu::StageTimer& timer);
 
   /// Whether what rests is to be used again in this frame.
   bool keeps() const { return resting_ == Resting::kept; }
@@ -94,8 +104,11 @@ class Resources {
  private:
   gpu::Context& context_;
   const scene::Geometry& geometry_;
-  std::shared_ptr<const SceneBuffers> scene_;
+  std::shared_ptr<const SceneBuffers> at_rest_, scene_;  ///< the same, unless posed
+  std::unique_ptr<scene::Geometry> posed_;               ///< none at rest
+  scene::Pose pose_;
   int shadow_map_size_;
+  LongWork long_work_;
 
   std::optional<ShadowMap> shadow_map_;
   std::optional<ShadowPlaneMap> shadow_plane_map_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
 #include <epoxy/gl.h>
 
@@ -22,13 +23,27 @@ std::uint64_t next_id() {
   return next++;
 }
 
+Clusters fitted(Clusters clusters, const scene::Geometry& geometry) {
+  fit_boxes(clusters, geometry);
+  return clusters;
+}
+
 }  // namespace
 
 SceneBuffers::SceneBuffers(const gpu::Context& context, const scene::Geometry& geometry)
+    : SceneBuffers(context, geometry, make_clusters(geometry), nullptr) {}
+
+SceneBuffers::SceneBuffers(const gpu::Context& context, const scene::Geometry& posed,
+                           const SceneBuffers& at_rest)
+    : SceneBuffers(context, posed, fitted(at_rest.clusters_, posed), &at_rest) {}
+
+SceneBuffers::SceneBuffers(const gpu::Context& context, const scene::Geometry& geometry, Clusters clusters,
+                           const SceneBuffers* at_rest)
     : geometry_(&geometry),
       id_(next_id()),
+      id_at_rest_(at_rest ? at_rest->id_at_rest_ : id_),
       box_(scene::bounds(geometry)),
-      clusters_(make_clusters(geometry)) {
+      clusters_(std::move(clusters)) {
   std::vector<glm::uvec3> triangles;
   std::vector<std::uint32_t> materials;
   triangles.reserve(clusters_.order.size());
@@ -52,7 +67,10 @@ SceneBuffers::SceneBuffers(const gpu::Context& context, const scene::Geometry& g
   albedo_texels_ = {context.limits(), albedos_, gpu::Format::rgba32f, "the model's materials"};
   material_texels_ = {context.limits(), material_of_triangle_, gpu::Format::r32ui, "the model's triangles"};
 
-  if (Looks::are_in(geometry)) looks_.emplace(context, geometry, clusters_.order);
+  if (at_rest && at_rest->looks_)
+    looks_.emplace(context, geometry, clusters_.order, *at_rest->looks_);
+  else if (Looks::are_in(geometry))
+    looks_.emplace(context, geometry, clusters_.order);
 
   if (has_cut_outs()) {
     std::vector<glm::vec3> positions;

@@ -32,6 +32,10 @@ class SceneBuffers {
   /// @throws scene::Error (driver) when a buffer would be larger than the driver allows.
   SceneBuffers(const gpu::Context& context, const scene::Geometry& geometry);
 
+  /// Of the same triangles elsewhere, in the same order.
+  /// @param posed the geometry of `at_rest` in another pose (scene::posed)
+  SceneBuffers(const gpu::Context& context, const scene::Geometry& posed, const SceneBuffers& at_rest);
+
   /// Binds positions, triangles, albedos and materials (shaders/bindings.glsl).
   void bind_samplers() const;
 
@@ -70,21 +74,28 @@ class SceneBuffers {
   /// @param apex the eye or the light
   std::vector<std::uint32_t> triangles_at(glm::dvec3 apex, double eye_light_distance) const;
 
-  /// A number that no other scene on the GPU has or had: what is made from one is kept by it.
+  /// A number that no other scene on the GPU has or had, and no other pose of it: what is made from one is
+  /// kept by it.
   std::uint64_t id() const { return id_; }
+  /// The same of the scene at rest: what is made from its triangles, wherever they are, is kept by it.
+  std::uint64_t id_at_rest() const { return id_at_rest_; }
   /// order()[i] is which triangle of the geometry comes i-th here.
   const std::vector<std::uint32_t>& order() const { return clusters_.order; }
   std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(clusters_.order.size()); }
   std::int64_t bytes() const;
 
  private:
+  /// @param at_rest nullptr where this is
+  SceneBuffers(const gpu::Context& context, const scene::Geometry& geometry, Clusters clusters,
+               const SceneBuffers* at_rest);
+
   /// Triangles `first` to `end` − 1, of a cluster's number where they are from its first one on.
   void draw_triangles(std::uint32_t first, std::uint32_t end, Drawn drawn,
                       std::optional<std::size_t> cluster = {}) const;
   void make_vertex_arrays();
 
   const scene::Geometry* geometry_;
-  std::uint64_t id_;
+  std::uint64_t id_, id_at_rest_;
   scene::Box box_;
   Clusters clusters_;
   gpu::Buffer positions_, triangles_, albedos_, material_of_triangle_, first_triangles_;

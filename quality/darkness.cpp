@@ -98,6 +98,11 @@ bool is_black(const std::vector<glm::vec3>& radiance) {
 }
 
 std::string why_black(const scene::Geometry& geometry, const scene::View& view) {
+  if (!view.pose.is_at_rest()) {
+    scene::View of_posed = view;
+    of_posed.pose = {};
+    return why_black(scene::posed(geometry, view.pose), of_posed);
+  }
   std::string why;
   for (const scene::Light& light : view.lights) {
     const double path = frame::shortest_path(view, light);

@@ -14,6 +14,7 @@ bool is_black(const std::vector<glm::vec3>& radiance);
 /// nothing through, a range that ends before what is seen or a spot that looks away from it, or a closed part
 /// of the scene that holds the light and not the eye, or the eye and not the light. Where none of these can
 /// be proved, that whatever is seen is dark by itself.
+/// @param geometry at rest
 std::string why_black(const scene::Geometry& geometry, const scene::View& view);
 
 }  // namespace airlight::quality

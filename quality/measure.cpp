@@ -56,7 +56,7 @@ Measurer::Measurer(gpu::Context& context, const scene::Geometry& geometry, const
       view_(&view),
       progress_(std::move(progress)),
       cache_(cache),
-      frame_(context, geometry, shadow_map_size) {
+      frame_(context, geometry, shadow_map_size, {}, {cache, progress_}) {
   look_at(view);
 }
 

@@ -16,8 +16,8 @@
 #include <unistd.h>
 #include <nlohmann/json.hpp>
 
-#include "quality/hash.h"
 #include "scene/error.h"
+#include "scene/hash.h"
 #include "scene/numbers.h"
 
 namespace airlight::quality {
@@ -52,7 +52,7 @@ std::string name_of(const Shard& shard) {
 
 bool Shard::holds(std::string_view key) const {
   // Hashed once more: the last bytes of a text alone leave most bits of its hash as they are.
-  const std::string digits = hash_of(key);
+  const std::string digits = scene::hash_of(key);
   std::uint64_t hash = 0;
   std::from_chars(digits.data(), digits.data() + 16, hash, 16);
   return hash % static_cast<std::uint64_t>(count) == static_cast<std::uint64_t>(number - 1);

@@ -17,10 +17,10 @@
 #include <nlohmann/json.hpp>
 
 #include "quality/compare.h"
-#include "quality/hash.h"
 #include "quality/measure.h"
 #include "quality/results_json.h"
 #include "quality/truth.h"
+#include "scene/hash.h"
 
 namespace airlight::quality {
 namespace {
@@ -310,13 +310,13 @@ std::string hash_of_subject(const scene::Geometry& geometry, std::span<const sce
   std::string words = fmt::format("geometry {}\n", hash_of_geometry(geometry));
   for (const scene::View& view : views)
     for (std::size_t light = 0; light < view.lights.size(); ++light) words += words_of_view(view, light);
-  return hash_of(words);
+  return scene::hash_of(words);
 }
 
 std::string key_of(const std::string& subject_hash, const Setting& setting) {
-  return hash_of(fmt::format("subject {}\nvolume {}surface {}shadow map {}\n", subject_hash,
-                             setting.volume.words(), setting.surface.words(),
-                             setting.shadow_map ? fmt::format("{}", *setting.shadow_map) : "unread"));
+  return scene::hash_of(fmt::format("subject {}\nvolume {}surface {}shadow map {}\n", subject_hash,
+                                    setting.volume.words(), setting.surface.words(),
+                                    setting.shadow_map ? fmt::format("{}", *setting.shadow_map) : "unread"));
 }
 
 PairedTime paired_time(std::span<const std::vector<double>> times,

@@ -192,12 +192,18 @@ frame::SurfaceMethod reference_surface_method() {
 
 SharedReference::SharedReference(const scene::Geometry& geometry, const scene::View& view, Progress progress,
                                  const std::filesystem::path& cache)
-    : geometry_(geometry),
+    : at_rest_(geometry),
       view_(view),
       progress_(std::move(progress)),
       cache_folder_(cache),
       lights_(view.lights.size()) {
-  if (!cache.empty()) cache_.emplace(cache, geometry, view);
+  if (!cache.empty()) cache_.emplace(cache, this->geometry(), view);
+}
+
+const scene::Geometry& SharedReference::geometry() {
+  if (view_.pose.is_at_rest()) return at_rest_;
+  if (!posed_) posed_ = scene::posed(at_rest_, view_.pose);
+  return *posed_;
 }
 
 struct SharedReference::Opaque {
@@ -208,10 +214,10 @@ struct SharedReference::Opaque {
 SharedReference::~SharedReference() = default;
 
 SharedReference* SharedReference::taken_opaque() {
-  if (!scene::transmits(geometry_)) return nullptr;
+  if (!scene::transmits(at_rest_)) return nullptr;
   if (!opaque_) {
     opaque_ = std::make_unique<Opaque>();
-    opaque_->geometry = geometry_;
+    opaque_->geometry = at_rest_;
     opaque_->geometry.transmission = scene::Transmission::opaque;
     opaque_->reference.emplace(opaque_->geometry, view_, progress_, cache_folder_);
   }
@@ -220,7 +226,7 @@ SharedReference* SharedReference::taken_opaque() {
 
 const reference::Reference& SharedReference::rays(std::size_t light) {
   OfLight& of_light = lights_[light];
-  if (!of_light.rays) of_light.rays.emplace(geometry_, view_, light);
+  if (!of_light.rays) of_light.rays.emplace(geometry(), view_, light);
   return *of_light.rays;
 }
 
@@ -272,7 +278,7 @@ const SurfaceVerdicts& SharedReference::verdicts(std::size_t light, const frame:
   const auto start = Clock::now();
   verdicts.assign(points.triangles.size(), std::nullopt);
   if (const std::vector<reference::SurfacePoint> seen = seen_points(points, light); !seen.empty()) {
-    const reference::Triangles triangles(geometry_);
+    const reference::Triangles triangles(geometry());
     const reference::SurfaceJudge judge(triangles, view_.lights[light], view_.camera.eye);
     const std::vector<reference::SurfaceVerdict> found = judge.judge(seen);
     auto verdict = found.begin();
@@ -300,7 +306,7 @@ void SharedReference::count(const reference::AirlightImage& image) {
 
 const reference::AirlightImage& SharedReference::exact(std::size_t light, int refinement) {
   OfLight& of_light = lights_[light];
-  if (scene::transmits_by_incidence(geometry_)) {  // no method shows its airlight: require_airlight
+  if (scene::transmits_by_incidence(at_rest_)) {  // no method shows its airlight: require_airlight
     auto& black = of_light.exact[refinement];
     black.radiance.resize(static_cast<std::size_t>(view_.size.x) * static_cast<std::size_t>(view_.size.y));
     return black;

@@ -25,7 +25,7 @@ using Progress = std::function<void(const std::string& what, double fraction)>;
 /// for twice.
 class SharedReference {
  public:
-  /// @param geometry, view kept by reference
+  /// @param geometry at rest; @param view both kept by reference
   /// @param cache folder where the truth is kept between runs of the program (TruthCache); empty for none
   SharedReference(const scene::Geometry& geometry, const scene::View& view, Progress progress,
                   const std::filesystem::path& cache = {});
@@ -88,7 +88,11 @@ class SharedReference {
   /// A copy of the geometry, and its reference.
   struct Opaque;
 
-  const scene::Geometry& geometry_;
+  /// Where the view has it.
+  const scene::Geometry& geometry();
+
+  const scene::Geometry& at_rest_;
+  std::optional<scene::Geometry> posed_;  ///< made when it is first asked for
   const scene::View& view_;
   Progress progress_;
   std::filesystem::path cache_folder_;

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include "quality/hash.h"
 #include "scene/error.h"
+#include "scene/hash.h"
+#include "scene/kept_file.h"
 #include "scene/light_texture.h"
 #include "scene/transmission.h"
 
@@ -40,17 +40,11 @@ constexpr std::array<const char*, 3> k_channels = {"R", "G", "B"};
 
 TruthCache::TruthCache(std::filesystem::path folder, const scene::Geometry& geometry, const scene::View& view)
     : folder_(std::move(folder)), geometry_(geometry), view_(view) {
-  std::error_code error;
-  std::filesystem::create_directories(folder_, error);
-  if (error) {
-    throw Error(ExitCode::bad_file, folder_.string(),
-                fmt::format("the folder cannot be made: {}", error.message()),
-                "choose another one with --cache");
-  }
+  scene::make_cache_folder(folder_);
 }
 
 std::string hash_of_geometry(const scene::Geometry& geometry) {
-  Hash hash;
+  scene::Hash hash;
   hash.add(geometry.positions);
   hash.add(geometry.triangles);
   if (scene::has_cut_outs(geometry)) {
@@ -90,7 +84,7 @@ std::string words_of_view(const scene::View& view, std::size_t light_index) {
       static_cast<int>(medium.phase), medium.g, medium.rayleigh_weight,
       medium.top ? fmt::format("{:a}", *medium.top) : "everywhere");
   if (light.texture) {
-    Hash hash;
+    scene::Hash hash;
     hash.add(light.texture->texels());
     words += fmt::format("texture {} {}x{}\n", hash.text(), light.texture->size().x, light.texture->size().y);
   }
@@ -98,6 +92,12 @@ std::string words_of_view(const scene::View& view, std::size_t light_index) {
     words +=
         fmt::format("cone {} {:a} {:a}\n", exact(light.cone->axis), light.cone->inner, light.cone->outer);
   if (light.range) words += fmt::format("range {:a}\n", *light.range);
+  if (!view.pose.is_at_rest()) {
+    scene::Hash hash;
+    hash.add(view.pose.objects->of_triangle);
+    hash.add(view.pose.motions);
+    words += fmt::format("pose {}\n", hash.text());
+  }
   return words;
 }
 
@@ -108,7 +108,7 @@ std::string TruthCache::key(std::size_t light, const std::string& what) const {
 }
 
 std::optional<Image> TruthCache::load(const std::string& key) const {
-  const std::filesystem::path file = folder_ / (hash_of(key) + ".exr");
+  const std::filesystem::path file = folder_ / (scene::hash_of(key) + ".exr");
   if (std::error_code error; !std::filesystem::exists(file, error)) return {};
   Image image = read_exr(file);
   const auto kept = image.metadata.find(k_key);
@@ -118,16 +118,10 @@ std::optional<Image> TruthCache::load(const std::string& key) const {
 }
 
 void TruthCache::save(const std::string& key, Image image) const {
-  const std::string hash = hash_of(key);
   image.size = view_.size;
   image.metadata[k_key] = key;
-  // Under another name until it is whole: whoever looks finds all of it or nothing.
-  const std::filesystem::path file = folder_ / (hash + ".exr");
-  const std::filesystem::path part = folder_ / fmt::format("{}.{}.part", hash, getpid());
-  write_exr(part, image);
-  std::error_code error;
-  std::filesystem::rename(part, file, error);
-  if (error) throw Error(ExitCode::bad_file, file.string(), "it cannot be written");
+  scene::write_whole(folder_ / (scene::hash_of(key) + ".exr"),
+                     [&](const std::filesystem::path& part) { write_exr(part, image); });
 }
 
 std::optional<std::vector<float>> TruthCache::load_distance(std::size_t light) const {

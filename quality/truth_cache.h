@@ -22,7 +22,7 @@ std::string words_of_view(const scene::View& view, std::size_t light);
 /// folder at the same time.
 class TruthCache {
  public:
-  /// @param folder made where it is missing; @param geometry kept by reference
+  /// @param folder made where it is missing; @param geometry where the view has it, kept by reference
   /// @throws scene::Error (bad_file) where it cannot be made
   TruthCache(std::filesystem::path folder, const scene::Geometry& geometry, const scene::View& view);
 

@@ -60,8 +60,9 @@ std::vector<DrawnTile> TileDraw::drawn(std::size_t count, std::uint32_t seed) co
 }
 
 TruthTracer::TruthTracer(const scene::Geometry& geometry, const scene::View& view) : view_(view) {
+  if (!view.pose.is_at_rest()) posed_ = scene::posed(geometry, view.pose);
   for (std::size_t light = 0; light < view.lights.size(); ++light)
-    of_light_.emplace_back(geometry, view, light);
+    of_light_.emplace_back(posed_ ? *posed_ : geometry, view, light);
   distance_ = of_light_[0].surfaces().distance;
 }
 

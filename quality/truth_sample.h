@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -51,6 +52,7 @@ class TruthTracer {
 
  private:
   const scene::View& view_;
+  std::optional<scene::Geometry> posed_;
   std::vector<reference::Reference> of_light_;
   std::vector<float> distance_;
 };

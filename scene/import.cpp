@@ -22,13 +22,10 @@ constexpr std::array<std::pair<std::string_view, Scene (*)(const std::filesystem
     k_importers = {
         {{".gltf", import_gltf}, {".glb", import_gltf}, {".obj", import_obj}, {".ply", import_ply}}};
 
-bool has_area(const RawGeometry& raw, glm::uvec3 triangle) {
-  // In single precision, as every method will see them: corners can coincide after rounding. The differences
-  // of floats and the products of those lose nothing that matters in double, so thin triangles stay.
-  const glm::dvec3 a(glm::vec3(raw.positions[triangle.x]));
-  const glm::dvec3 b(glm::vec3(raw.positions[triangle.y]));
-  const glm::dvec3 c(glm::vec3(raw.positions[triangle.z]));
-  return glm::cross(b - a, c - a) != glm::dvec3(0.0);
+/// In single precision, as every method will see them: corners can coincide after rounding.
+bool has_area_rounded(const RawGeometry& raw, glm::uvec3 triangle) {
+  return has_area(glm::vec3(raw.positions[triangle.x]), glm::vec3(raw.positions[triangle.y]),
+                  glm::vec3(raw.positions[triangle.z]));
 }
 
 /// Of unit length; 0 of what is no direction.
@@ -183,13 +180,15 @@ Geometry clean(const std::filesystem::path& file, RawGeometry raw, ImportReport&
   geometry.material_of_triangle.reserve(raw.triangles.size());
   geometry.texture_places.reserve(raw.texture_places.size());
   geometry.normals.reserve(raw.normals.size());
+  geometry.node_of_triangle.reserve(raw.node_of_triangle.size());
   for (std::size_t i = 0; i < raw.triangles.size(); ++i) {
     assert(raw.material_of_triangle[i] < raw.materials.size());
-    if (!has_area(raw, raw.triangles[i])) continue;
+    if (!has_area_rounded(raw, raw.triangles[i])) continue;
     geometry.triangles.push_back(raw.triangles[i]);
     geometry.material_of_triangle.push_back(raw.material_of_triangle[i]);
     if (!raw.texture_places.empty()) geometry.texture_places.push_back(raw.texture_places[i]);
     if (!raw.normals.empty()) geometry.normals.push_back(turned_normals(raw, i));
+    if (!raw.node_of_triangle.empty()) geometry.node_of_triangle.push_back(raw.node_of_triangle[i]);
   }
   report.degenerate_triangles = raw.triangles.size() - geometry.triangles.size();
   if (geometry.triangles.empty()) report.warnings.push_back("the file has no triangles");

@@ -15,7 +15,6 @@
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 #include <glm/gtc/matrix_access.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <nlohmann/json.hpp>
@@ -518,26 +517,25 @@ class Importer {
 
   static glm::dvec3 dvec3_of(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
 
-  glm::dmat4 parent_from_node(const tinygltf::Node& node, const std::string& where) const {
-    if (!node.matrix.empty()) {
-      const glm::dmat4 matrix = glm::make_mat4(node.matrix.data());
-      if (glm::row(matrix, 3) != glm::dvec4(0.0, 0.0, 0.0, 1.0))
+  Node read_node(const tinygltf::Node& source, const std::string& where) const {
+    Node node{.name = source.name};
+    if (!source.matrix.empty()) {
+      node.matrix = glm::make_mat4(source.matrix.data());
+      if (glm::row(*node.matrix, 3) != glm::dvec4(0.0, 0.0, 0.0, 1.0))
         throw error(where, "the last row of its matrix is not 0, 0, 0, 1");
-      return matrix;
+      return node;
     }
-    glm::dmat4 matrix(1.0);
-    if (!node.translation.empty()) matrix = glm::translate(matrix, dvec3_of(node.translation));
-    if (!node.rotation.empty()) {
-      const std::vector<double>& r = node.rotation;
+    if (!source.translation.empty()) node.translation = dvec3_of(source.translation);
+    if (!source.rotation.empty()) {
+      const std::vector<double>& r = source.rotation;
       const glm::dquat rotation(r[3], r[0], r[1], r[2]);
-      // Exporters write single precision; what is farther off is no rotation.
-      if (!(std::abs(glm::length(rotation) - 1.0) < 1e-3))
+      if (!is_unit_quaternion(rotation))
         throw error(where, fmt::format("its rotation is not a unit quaternion: its length is {:g}",
                                        glm::length(rotation)));
-      matrix *= glm::mat4_cast(glm::normalize(rotation));
+      node.rotation = glm::normalize(rotation);
     }
-    if (!node.scale.empty()) matrix = glm::scale(matrix, dvec3_of(node.scale));
-    return matrix;
+    if (!source.scale.empty()) node.scale = dvec3_of(source.scale);
+    return node;
   }
 
   /// The nodes of the default scene, of the first one, or, without scenes, those that are no node's child.
@@ -560,31 +558,39 @@ class Importer {
       int node;
       glm::dmat4 world_from_parent;
       std::string parent;
+      std::optional<std::uint32_t> parent_index;
     };
     // Depth first in the file's order, without recursion: chains of nodes can be as long as the file.
     std::vector<Visit> visits;
     const auto add = [&](const std::vector<int>& nodes, const glm::dmat4& world_from_parent,
-                         const std::string& parent) {
+                         const std::string& parent, std::optional<std::uint32_t> parent_index) {
       for (auto node = nodes.rbegin(); node != nodes.rend(); ++node)
-        visits.push_back({*node, world_from_parent, parent});
+        visits.push_back({*node, world_from_parent, parent, parent_index});
     };
-    add(roots(), glm::dmat4(1.0), "scene");
-    std::vector<bool> seen(model_.nodes.size(), false);
+    add(roots(), glm::dmat4(1.0), "scene", {});
+    scene_.nodes.resize(model_.nodes.size());
+    for (std::size_t i = 0; i < model_.nodes.size(); ++i) scene_.nodes[i].name = model_.nodes[i].name;
     while (!visits.empty()) {
       const Visit visit = std::move(visits.back());
       visits.pop_back();
       const tinygltf::Node& node = at(model_.nodes, visit.node, "node", visit.parent);
       const auto index = static_cast<std::size_t>(visit.node);
       const std::string where = place("node", index, node.name);
-      if (seen[index]) throw error(where, "it has two parents, or is its own ancestor");
-      seen[index] = true;
+      Node& read = scene_.nodes[index];
+      if (read.is_shown) throw error(where, "it has two parents, or is its own ancestor");
+      read = read_node(node, where);
+      read.parent = visit.parent_index;
+      read.is_shown = true;
 
-      const glm::dmat4 world_from_node = visit.world_from_parent * parent_from_node(node, where);
+      const glm::dmat4 world_from_node = visit.world_from_parent * parent_from_node(read);
       count(node.skin >= 0, "skins", "meshes are shown at rest");
       if (node.mesh >= 0) add_mesh(node, world_from_node, where);
+      raw_.node_of_triangle.resize(raw_.triangles.size(), static_cast<std::uint32_t>(index));
+      const std::size_t before = scene_.cameras.size() + scene_.lights.size();
       if (node.camera >= 0) add_camera(node, world_from_node, where);
       if (node.extensions.contains(std::string(k_lights))) add_light(node, world_from_node, where);
-      add(node.children, world_from_node, where);
+      read.cameras_and_lights = scene_.cameras.size() + scene_.lights.size() - before;
+      add(node.children, world_from_node, where, static_cast<std::uint32_t>(index));
     }
   }
 

@@ -37,6 +37,7 @@ struct RawGeometry {
   std::vector<std::array<glm::vec2, 3>> texture_places;  ///< as Geometry's; as many as triangles, or fewer
   /// As many as triangles, or fewer: of any length and on either side; 0 of corners that have none.
   std::vector<std::array<glm::vec3, 3>> normals;
+  std::vector<std::uint32_t> node_of_triangle;              ///< as Geometry's: one a triangle, or none
   std::function<std::string(std::size_t)> place_of_vertex;  ///< where in the file a position comes from
 };
 

@@ -83,6 +83,13 @@ void validate(const Light& light, const View& view) {
 
 }  // namespace
 
+bool has_area(glm::vec3 a, glm::vec3 b, glm::vec3 c) {
+  // The differences of floats and the products of those lose nothing that matters in double, so thin
+  // triangles have one.
+  const glm::dvec3 origin(a);
+  return glm::cross(glm::dvec3(b) - origin, glm::dvec3(c) - origin) != glm::dvec3(0.0);
+}
+
 bool has_cut_outs(const Geometry& geometry) {
   return std::any_of(geometry.materials.begin(), geometry.materials.end(),
                      [](const Material& material) { return material.cut_out.has_value(); });

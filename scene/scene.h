@@ -14,6 +14,9 @@
 
 #include <glm/glm.hpp>
 
+#include "scene/nodes.h"
+#include "scene/pose.h"
+
 namespace airlight::scene {
 
 /// Squared distances between points within this range of the origin stay far inside single precision.
@@ -86,7 +89,13 @@ struct Geometry {
   /// from which the corners go around counter-clockwise, for most of them. Empty where all triangles are
   /// flat.
   std::vector<std::array<glm::vec3, 3>> normals;
+
+  /// Which of the scene's nodes each triangle hangs on. Empty where there are none.
+  std::vector<std::uint32_t> node_of_triangle;
 };
+
+/// Whether three corners do not lie in one line, as the floats that they are.
+bool has_area(glm::vec3 a, glm::vec3 b, glm::vec3 c);
 
 /// An axis-aligned box. Empty while `lower > upper`.
 struct Box {
@@ -278,6 +287,7 @@ struct UsualMethods {
 struct Scene {
   std::string name;
   Geometry geometry;
+  std::vector<Node> nodes;  ///< of a glTF file, in its order
   std::vector<Camera> cameras;
   std::vector<Light> lights;        ///< all of them are on
   std::vector<Light> other_lights;  ///< brought along and off, because others were chosen
@@ -289,13 +299,14 @@ struct Scene {
   ImportReport report;
 };
 
-/// What one image shows of a scene, all choices made. The geometry stays where it is.
+/// What one image shows of a scene, all choices made. Of the geometry it says where its objects are.
 struct View {
   Camera camera;
   std::vector<Light> lights{Light{}};  ///< at least one; what they send adds up
   Medium medium;
   glm::ivec2 size{512, 512};  ///< pixels
   Surroundings surroundings = {};
+  Pose pose = {};
 };
 
 /// Checks what every method relies on.

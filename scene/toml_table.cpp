@@ -16,6 +16,7 @@ std::string line_of(const toml::source_region& source) {
 }
 
 constexpr const char* k_wanted_number = "it must be a number";
+constexpr const char* k_wanted_vector = "it must be three numbers, as in [0, 1, 0]";
 
 }  // namespace
 
@@ -56,6 +57,18 @@ std::optional<std::size_t> Table::count(std::string_view key) {
   return static_cast<std::size_t>(*value);
 }
 
+std::optional<glm::dvec3> Table::three_numbers(std::string_view key) {
+  const toml::node* node = find(key);
+  if (!node) return std::nullopt;
+  return vector_of<glm::dvec3>(key, *node, k_wanted_vector);
+}
+
+std::optional<glm::dvec4> Table::four_numbers(std::string_view key) {
+  const toml::node* node = find(key);
+  if (!node) return std::nullopt;
+  return vector_of<glm::dvec4>(key, *node, "it must be four numbers, as in [0, 0, 0, 1]");
+}
+
 std::optional<FieldValue> Table::value(const FieldInfo& field, const LightTextureReader& read_light_texture) {
   const std::string key = field.key();
   const toml::node* node = find(key);
@@ -65,7 +78,7 @@ std::optional<FieldValue> Table::value(const FieldInfo& field, const LightTextur
       return number_of(key, *node, k_wanted_number);
     case FieldKind::vector:
     case FieldKind::direction:
-      return vector_of<glm::dvec3>(key, *node, "it must be three numbers, as in [0, 1, 0]");
+      return vector_of<glm::dvec3>(key, *node, k_wanted_vector);
     case FieldKind::angles:
     case FieldKind::cone:
       return vector_of<glm::dvec2>(key, *node, "it must be two numbers, as in [30, 45]");

@@ -37,6 +37,9 @@ class Table {
   /// A whole number, at least 1.
   std::optional<std::size_t> count(std::string_view key);
 
+  std::optional<glm::dvec3> three_numbers(std::string_view key);
+  std::optional<glm::dvec4> four_numbers(std::string_view key);
+
   /// None of a field of a size.
   std::optional<FieldValue> value(const FieldInfo& field, const LightTextureReader& read_light_texture);
 

@@ -26,9 +26,9 @@ void Brute::query(const frame::FrameInputs& inputs, const gpu::Texture& visibili
   const gpu::Texture& points = inputs.surface_points();
   inputs.triangle_planes();
   inputs.timer.time("surface_build", [&] { occluders_.build(inputs); });
-  if (scene_ != inputs.scene.id()) {
+  if (!pass_ || transmits_ != inputs.scene.transmits()) {
     pass_.emplace(k_brute_frag, std::array{transmission_constant(inputs.scene)});
-    scene_ = inputs.scene.id();
+    transmits_ = inputs.scene.transmits();
   }
   inputs.timer.time("surface_query", [&] {
     occluders_.bind(inputs);

@@ -27,8 +27,8 @@ class Brute : public frame::SurfaceShadow {
 
  private:
   Occluders occluders_;
-  std::uint64_t scene_ = 0;                ///< SceneBuffers::id
   std::optional<frame::ScreenPass> pass_;  ///< of the scene
+  bool transmits_ = false;
 };
 
 frame::SurfaceMethod brute_method();

@@ -162,4 +162,45 @@ ClusterBounds bounds_of(const scene::Geometry& geometry, std::span<const glm::uv
   return bounds;
 }
 
+ClusterBounds moved(const ClusterBounds& bounds, const scene::Rigid& motion) {
+  const glm::dvec3 from_at_rest(bounds.from), to_at_rest(bounds.to);
+  const glm::dvec3 from = motion(from_at_rest), to = motion(to_at_rest),
+                   axis = motion.turned(glm::dvec3(bounds.axis));
+  const double radius = static_cast<double>(bounds.radius);
+  ClusterBounds result;
+  result.from = glm::vec3(from);
+  result.to = glm::vec3(to);
+  result.axis = glm::vec3(axis);
+
+  // How far rounding has moved the ends and the axis, and may have moved a corner: each of its coordinates by
+  // half a unit in the last place, and by what the motion's own double precision loses.
+  const double from_error = glm::distance(glm::dvec3(result.from), from);
+  const double end_error = std::max(from_error, glm::distance(glm::dvec3(result.to), to));
+  const double axis_error = glm::distance(glm::dvec3(result.axis), axis);
+  const auto largest = [](glm::dvec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); };
+  const double reach = std::max(largest(from), largest(to)) + radius;
+  const double reach_at_rest = std::max(largest(from_at_rest), largest(to_at_rest)) + radius;
+  constexpr double k_half_unit = 0x1p-24, k_least_unit = 0x1p-149, k_diagonal = 1.7320509;
+  const double corner_error = k_diagonal * (k_half_unit * (1.0 + 1e-6) * reach + k_least_unit) +
+                              k_rounding * (reach + reach_at_rest + largest(glm::dvec3(motion.matrix[3])));
+
+  result.radius = rounded_up(radius + corner_error + end_error);
+  const double farthest = glm::distance(from, to) + radius;
+  const double height_error = 1.000001 * (axis_error * farthest + corner_error + from_error);
+  result.lower = rounded_down(static_cast<double>(bounds.lower) - height_error);
+  result.upper = rounded_up(static_cast<double>(bounds.upper) + height_error);
+
+  // A triangle is lower at most by what two ends of an altitude are off. Its plane, off by no more at three
+  // corners, is turned by a slope of twice that over the least width, which is the least altitude.
+  const double altitude = static_cast<double>(bounds.least_altitude) - 2.000001 * corner_error;
+  result.least_altitude = rounded_down(std::max(altitude, 0.0));
+  const double turn = altitude > 0.0 ? 2.000001 * corner_error / altitude : 1.0;
+  result.opening =
+      turn < 0.1
+          ? std::min(rounded_up(static_cast<double>(bounds.opening) + turn + 1.1 * axis_error + k_rounding),
+                     k_any_direction)
+          : k_any_direction;
+  return result;
+}
+
 }  // namespace airlight::surface_shadows

@@ -36,4 +36,8 @@ inline constexpr float k_any_direction = 4.0f;
 ClusterBounds bounds_of(const scene::Geometry& geometry, std::span<const glm::uvec3> triangles,
                         bool has_capsules = true);
 
+/// The bounds of the same triangles after a motion, of their corners as they are rounded there.
+/// @param bounds of them at rest
+ClusterBounds moved(const ClusterBounds& bounds, const scene::Rigid& motion);
+
 }  // namespace airlight::surface_shadows

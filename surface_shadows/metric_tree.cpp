@@ -4,12 +4,16 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <random>
+#include <string>
+#include <utility>
 
 #include "frame/blocks.h"
 #include "frame/clusters.h"
+#include "surface_shadows/cluster_cache.h"
+#include "surface_shadows/median_tree.h"
 #include "surface_shadows/tree_options.h"
-#include "surface_shadows/triangle_clusters.h"
 
 #include "spirv/surface_shadows/metric_tree_cones_comp.h"
 #include "spirv/surface_shadows/metric_tree_insert_comp.h"
@@ -22,7 +26,7 @@ namespace airlight::shaders {
 namespace airlight::surface_shadows {
 namespace {
 
-constexpr std::int64_t k_node_bytes = 64;   ///< of a MetricNode of shaders/surface_shadows/metric_tree.glsl
+constexpr std::int64_t k_node_bytes = sizeof(MetricNode);
 constexpr std::int64_t k_half_spaces = 32;  ///< more than any light's view has
 constexpr const char* k_remedy = "let clusters have more triangles (metric-tree:cluster=N)";
 
@@ -35,7 +39,9 @@ std::uint32_t flag(Use use) {
 std::vector<gpu::Constant> MetricTree::walk_constants(const frame::SceneBuffers& scene) const {
   return {gpu::Constant(31, flag(options_.distance_cull)),
           gpu::Constant(32, static_cast<std::uint32_t>(options_.stack)),
-          gpu::Constant(33, flag(options_.interval_cull)), gpu::Constant(35, flag(options_.slabs)),
+          gpu::Constant(33, flag(options_.interval_cull)),
+          gpu::Constant(35, flag(options_.slabs)),
+          gpu::Constant(36, options_.build == Build::median ? 1u : 0u),
           transmission_constant(scene)};
 }
 
@@ -45,22 +51,44 @@ frame::ScreenPass MetricTree::query_pass(const frame::SceneBuffers& scene, Count
   return frame::ScreenPass(k_metric_tree_query_frag, constants);
 }
 
-MetricTree::MetricTree(const MetricTreeOptions& options)
-    : options_(options), insert_program_(gpu::Pipeline::compute(k_metric_tree_insert_comp)) {}
+MetricTree::MetricTree(const MetricTreeOptions& options, std::optional<gpu::Limits> limits)
+    : options_(options),
+      limits_(limits),
+      insert_program_(gpu::Pipeline::compute(k_metric_tree_insert_comp)) {}
+
+/// As an earlier run has kept them, or made.
+TriangleClusters MetricTree::clusters_of(const frame::FrameInputs& inputs,
+                                         std::span<const std::uint32_t> object_of_triangle) const {
+  const scene::Geometry& geometry = inputs.resources.geometry_at_rest();
+  const std::vector<std::uint32_t>&order = inputs.scene.order(), &parts = culled_parts_.of_triangle();
+  const ClusterSettings settings = {.most_triangles = static_cast<std::uint32_t>(options_.cluster),
+                                    .has_capsules = options_.capsules == Use::on};
+  const auto& [cache, tell] = inputs.resources.long_work();
+  std::optional<TriangleClusters> clusters;
+  std::string key;
+  if (!cache.empty()) {
+    inputs.timer.time("kept_clusters", [&] {
+      key = key_of_clusters(geometry, order, parts, settings, object_of_triangle);
+      clusters = load_clusters(cache, key);
+    });
+    if (clusters) return *std::move(clusters);
+  }
+  scene::Progress progress;
+  if (tell) progress = [&](double fraction) { tell("clusters of triangles", fraction); };
+  inputs.timer.time("triangle_clusters", [&] {
+    clusters = make_triangle_clusters(geometry, order, parts, settings, object_of_triangle, progress);
+  });
+  if (!cache.empty()) save_clusters(cache, key, *clusters);
+  return *std::move(clusters);
+}
 
 void MetricTree::load(const frame::FrameInputs& inputs) {
-  culls_ = culls(options_.cull, inputs.scene);
-  culled_parts_ = culls_ ? CulledParts(inputs) : CulledParts();
-  cones_program_ = gpu::Pipeline::compute(
-      k_metric_tree_cones_comp,
-      std::array{gpu::Constant(0, culls_ ? 1u : 0u), gpu::Constant(1, flag(options_.normal_cones))});
-  query_.emplace(query_pass(inputs.scene, Counted::none));
-  TriangleClusters made;
-  inputs.timer.time("triangle_clusters", [&] {
-    made = make_triangle_clusters(inputs.geometry(), inputs.scene.order(), culled_parts_.of_triangle(),
-                                  {.most_triangles = static_cast<std::uint32_t>(options_.cluster),
-                                   .has_capsules = options_.capsules == Use::on});
-  });
+  objects_ = inputs.view.pose.objects;
+  std::vector<std::uint32_t> object_of_triangle;
+  if (objects_)
+    for (const std::uint32_t triangle : inputs.scene.order())
+      object_of_triangle.push_back(objects_->of_triangle[triangle]);
+  TriangleClusters made = clusters_of(inputs, object_of_triangle);
   // Their numbers are the order in which they are inserted.
   std::shuffle(made.clusters.begin(), made.clusters.end(),
                std::mt19937(static_cast<std::uint32_t>(options_.seed)));
@@ -70,7 +98,7 @@ void MetricTree::load(const frame::FrameInputs& inputs) {
                     [](const TriangleCluster& cluster) { return !cluster.bounds.is_sphere(); });
   capsule_share_ = static_cast<double>(capsules) / std::max(1.0, static_cast<double>(cluster_count_));
 
-  const gpu::Limits& limits = inputs.context.limits();
+  const gpu::Limits& limits = limits_ ? *limits_ : inputs.context.limits();
   const std::int64_t node_bytes = k_node_bytes * (std::int64_t{cluster_count_} + 1);
   gpu::require_storage_block(limits, node_bytes, "the tree of the model's clusters", k_remedy);
   clusters_ = gpu::Buffer::from(std::span<const TriangleCluster>(made.clusters));
@@ -82,6 +110,56 @@ void MetricTree::load(const frame::FrameInputs& inputs) {
   triangle_texels_ = {limits, triangles_, gpu::Format::r32ui, "the model's triangles"};
   node_texels_ = {limits, nodes_, gpu::Format::rgba32ui, "the tree of the model's clusters"};
   always_asked_texels_ = {limits, always_asked_, gpu::Format::r32ui, "the model's clusters"};
+  if (options_.build == Build::median) {
+    partition_distances_ = gpu::Buffer(std::int64_t{sizeof(float)} * (cluster_count_ + 1));
+    partition_distance_texels_ = {limits, partition_distances_, gpu::Format::r32f, "the model's clusters"};
+  }
+  at_rest_ = inputs.scene.id_at_rest();
+
+  clusters_at_rest_.clear();
+  object_of_cluster_.clear();
+  if (!objects_) return;
+  for (const TriangleCluster& cluster : made.clusters)
+    object_of_cluster_.push_back(object_of_triangle[made.triangles[cluster.first]]);
+  clusters_at_rest_ = std::move(made.clusters);
+}
+
+void MetricTree::move_clusters(const scene::Pose& pose) const {
+  std::vector<TriangleCluster> clusters = clusters_at_rest_;
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    const std::uint32_t object = object_of_cluster_[i];
+    if (object != 0 && !pose.motions[object - 1].is_identity())
+      clusters[i].bounds = moved(clusters[i].bounds, pose.motions[object - 1]);
+  }
+  clusters_.write(clusters.data(), clusters_.bytes());
+}
+
+/// Those that depend on the scene.
+void MetricTree::make_programs(const frame::SceneBuffers& scene) {
+  if (query_ && transmits_ == scene.transmits()) return;
+  transmits_ = scene.transmits();
+  culls_ = culls(options_.cull, scene);
+  culled_parts_ = {};
+  cones_program_ = gpu::Pipeline::compute(
+      k_metric_tree_cones_comp,
+      std::array{gpu::Constant(0, culls_ ? 1u : 0u), gpu::Constant(1, flag(options_.normal_cones))});
+  query_.emplace(query_pass(scene, Counted::none));
+}
+
+/// Clusters, where the view has their triangles.
+void MetricTree::require_clusters(const frame::FrameInputs& inputs) {
+  const scene::Pose& pose = inputs.view.pose;
+  bool are_there = at_rest_ == inputs.scene.id_at_rest() && objects_ == pose.objects;
+  if (are_there && scene_ == inputs.scene.id()) return;
+  make_programs(inputs.scene);
+  if (culls_) {
+    // What touches is one part: where objects come together or part, other triangles are.
+    CulledParts parts(inputs);
+    are_there = are_there && parts.of_triangle() == culled_parts_.of_triangle();
+    culled_parts_ = std::move(parts);
+  }
+  if (!are_there) load(inputs);
+  if (objects_ && cluster_count_ > 0) inputs.timer.time("surface_build", [&] { move_clusters(pose); });
   scene_ = inputs.scene.id();
 }
 
@@ -138,7 +216,7 @@ std::uint32_t MetricTree::write_light_view(const frame::FrameInputs& inputs) con
 
 void MetricTree::build(const frame::FrameInputs& inputs) {
   inputs.triangle_planes();  // a stage of its own
-  if (scene_ != inputs.scene.id()) load(inputs);
+  require_clusters(inputs);
   inputs.timer.time("surface_build", [&] { insert_clusters(inputs); });
 }
 
@@ -165,11 +243,25 @@ void MetricTree::insert_clusters(const frame::FrameInputs& inputs) {
   cones_program_.set(4, write_light_view(inputs));
   cones_program_.dispatch({cluster_count_, 1, 1});
 
+  if (options_.build == Build::median) return link_on_cpu(inputs, of_light);
   insert_program_.set(0, cluster_count_);
   insert_program_.set(1, of_light.error);
   insert_program_.set(2, of_light.root_distance);
   insert_program_.set(3, of_light.slack);
   insert_program_.dispatch({cluster_count_, 1, 1});
+}
+
+void MetricTree::link_on_cpu(const frame::FrameInputs& inputs, const Distances& of_light) const {
+  std::vector<MetricNode> nodes = nodes_.read<MetricNode>();
+  const scene::Light& light = inputs.light();
+  const std::vector<float> distances = link_median_tree(nodes,
+                                                        {.travels = -glm::vec3(light.towards),
+                                                         .is_sun = scene::is_sun(light),
+                                                         .error = of_light.error,
+                                                         .slack = of_light.slack},
+                                                        static_cast<std::uint32_t>(options_.seed));
+  nodes_.write(nodes.data(), nodes_.bytes());
+  partition_distances_.write(distances.data(), partition_distances_.bytes());
 }
 
 void MetricTree::bind_walk(const frame::FrameInputs& inputs, const gpu::Pipeline& pipeline) const {
@@ -180,6 +272,8 @@ void MetricTree::bind_walk(const frame::FrameInputs& inputs, const gpu::Pipeline
   triangle_texels_.bind_sampler(shaders::k_cluster_triangles_unit);
   always_asked_texels_.bind_sampler(shaders::k_always_asked_unit);
   node_texels_.bind_sampler(shaders::k_metric_tree_unit);
+  if (options_.build == Build::median)
+    partition_distance_texels_.bind_sampler(shaders::k_partition_distances_unit);
   const frame::LightOrigin origin = inputs.resources.origin();
   const Distances of_light = distances(inputs, scale_);
   pipeline.set(1, scale_.scale);
@@ -187,8 +281,8 @@ void MetricTree::bind_walk(const frame::FrameInputs& inputs, const gpu::Pipeline
   pipeline.set(3, origin.low);
   pipeline.set(4, of_light.error);
   pipeline.set(5, of_light.slack);
-  pipeline.set(6, of_light.root_distance);
   // Without these the shader has no use for it, and no place.
+  if (options_.build == Build::gpu) pipeline.set(6, of_light.root_distance);
   if (options_.slabs == Use::on || options_.distance_cull == Use::on) pipeline.set(7, scale_.reach);
 }
 
@@ -230,7 +324,8 @@ std::map<std::string, double> MetricTree::counters(const frame::FrameInputs& inp
 
 std::map<std::string, std::int64_t> MetricTree::bytes() const {
   return {{"clusters", clusters_.bytes() + triangles_.bytes()},
-          {"tree", nodes_.bytes() + always_asked_.bytes() + light_view_.bytes() + culled_parts_.bytes()}};
+          {"tree", nodes_.bytes() + partition_distances_.bytes() + always_asked_.bytes() +
+                       light_view_.bytes() + culled_parts_.bytes()}};
 }
 
 frame::SurfaceMethod metric_tree_method() {
@@ -265,7 +360,17 @@ frame::SurfaceMethod metric_tree_method() {
                   "off visits more nodes", &Options::interval_cull),
        use_option("light-view", "whether clusters are left out of the tree that hide nothing in view",
                   "off has a larger tree", &Options::light_view),
-       culling_option(&Options::cull), seed_option(&Options::seed), stack_option(&Options::stack)},
+       culling_option(&Options::cull),
+       frame::word_option<Options, Build>(
+           {.name = "build",
+            .meaning = "who makes the tree",
+            .quality = "none",
+            .cost = "median visits fewer nodes of a tree that takes the CPU long",
+            .sweep = {"gpu", "median"}},
+           {{"gpu", "the GPU, by insertion"},
+            {"median", "the CPU, with medians and pivots chosen among many"}},
+           &Options::build),
+       seed_option(&Options::seed), stack_option(&Options::stack)},
       [](const gpu::Context&, const Options& options) { return std::make_unique<MetricTree>(options); });
 }
 

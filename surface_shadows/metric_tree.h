@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,10 +13,17 @@
 #include "surface_shadows/culled_parts.h"
 #include "surface_shadows/occluders.h"
 #include "surface_shadows/transmission.h"
+#include "surface_shadows/triangle_clusters.h"
 
 namespace airlight::surface_shadows {
 
 enum class Use { on, off };
+
+/// Who makes the tree.
+enum class Build {
+  gpu,     ///< in each frame, by insertion
+  median,  ///< the CPU in each frame, as well as it can: see link_median_tree
+};
 
 struct MetricTreeOptions {
   int cluster = 16;             ///< triangles of one at most
@@ -25,7 +34,8 @@ struct MetricTreeOptions {
   Use interval_cull = Use::on;  ///< of overlap subtrees at other distances from their pivot
   Use light_view = Use::on;     ///< to leave out clusters that hide nothing of what the eye may see
   Culling cull = Culling::none;
-  int seed = 1;    ///< of the random order
+  Build build = Build::gpu;
+  int seed = 1;    ///< of the random order, or of the choices of `median`
   int stack = 32;  ///< nodes that a pixel's stack holds
 
   bool ignores_cut_outs() const { return true; }
@@ -33,11 +43,14 @@ struct MetricTreeOptions {
 
 /// `metric-tree`: clusters of triangles, made once a scene, in a ternary tree by their distances from each
 /// other as the light sees them, which is made anew each frame on the GPU and asked once a pixel. Exact:
-/// whatever its other options, it answers what `brute` does with the same culling.
+/// whatever its other options, it answers what `brute` does with the same culling. Where objects move, each
+/// cluster is of one of them, and its bounds go with it.
 /// Based on: see shaders/surface_shadows/metric_tree.glsl and triangle_clusters.h.
 class MetricTree : public frame::SurfaceShadow {
  public:
-  explicit MetricTree(const MetricTreeOptions& options);
+  /// @param limits of its buffers; without, the driver's
+  explicit MetricTree(const MetricTreeOptions& options, std::optional<gpu::Limits> limits = {});
+  /// @throws scene::Error (driver) for more clusters than one storage block holds nodes of
   gpu::Format visibility_format(const frame::SceneBuffers& scene) const override {
     return transmission_format(scene);
   }
@@ -76,24 +89,38 @@ class MetricTree : public frame::SurfaceShadow {
   };
   static Distances distances(const frame::FrameInputs& inputs, const LightScale& scale);
 
+  TriangleClusters clusters_of(const frame::FrameInputs& inputs,
+                               std::span<const std::uint32_t> object_of_triangle) const;
   void load(const frame::FrameInputs& inputs);
+  void make_programs(const frame::SceneBuffers& scene);
+  void require_clusters(const frame::FrameInputs& inputs);
+  void move_clusters(const scene::Pose& pose) const;
+  void link_on_cpu(const frame::FrameInputs& inputs, const Distances& of_light) const;
   void insert_clusters(const frame::FrameInputs& inputs);
   std::uint32_t write_light_view(const frame::FrameInputs& inputs) const;
   void run(const frame::ScreenPass& pass, const frame::FrameInputs& inputs, const gpu::Texture& image) const;
   frame::ScreenPass query_pass(const frame::SceneBuffers& scene, Counted counted) const;
 
   MetricTreeOptions options_;
+  std::optional<gpu::Limits> limits_;
   gpu::Pipeline cones_program_, insert_program_;
   std::optional<frame::ScreenPass> query_;  ///< of the scene
 
-  std::uint64_t scene_ = 0;  ///< SceneBuffers::id
-  bool culls_ = false;
+  std::uint64_t scene_ = 0;    ///< SceneBuffers::id
+  std::uint64_t at_rest_ = 0;  ///< SceneBuffers::id_at_rest of the scene that the clusters are of, …
+  std::shared_ptr<const scene::Objects> objects_;  ///< … and of which objects
+  // Where there are any, in the order of the clusters:
+  std::vector<TriangleCluster> clusters_at_rest_;
+  std::vector<std::uint32_t> object_of_cluster_;  ///< as of Objects::of_triangle
+  bool culls_ = false, transmits_ = false;
   std::uint32_t cluster_count_ = 0;
   double capsule_share_ = 0.0;
   CulledParts culled_parts_;
   LightScale scale_;
   gpu::Buffer clusters_, triangles_, nodes_, always_asked_, light_view_;
-  gpu::TexelView cluster_texels_, triangle_texels_, node_texels_, always_asked_texels_;
+  gpu::Buffer partition_distances_;  ///< of Build::median: δ of each node
+  gpu::TexelView cluster_texels_, triangle_texels_, node_texels_, always_asked_texels_,
+      partition_distance_texels_;
 };
 
 frame::SurfaceMethod metric_tree_method();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "frame/blocks.h"
 
@@ -31,10 +32,11 @@ void Occluders::load(const frame::FrameInputs& inputs) {
   gpu::require_storage_block(limits, bytes, "the model's triangles", k_storage_remedy);
   corners_ = gpu::Buffer(bytes);
   corner_texels_ = {limits, corners_, gpu::Format::rgba32f, "the model's triangles"};
-  scene_ = inputs.scene.id();
   count_ = inputs.scene.triangle_count();
-  culls_ = culls(culling_, inputs.scene);
-  program_ = gpu::Pipeline::compute(k_occluders_comp, std::array{gpu::Constant(0, culls_ ? 1u : 0u)});
+  const bool is_first = scene_ == 0, culled = std::exchange(culls_, culls(culling_, inputs.scene));
+  if (is_first || culled != culls_)
+    program_ = gpu::Pipeline::compute(k_occluders_comp, std::array{gpu::Constant(0, culls_ ? 1u : 0u)});
+  scene_ = inputs.scene.id();
   if (!culls_) return;
 
   culled_parts_ = CulledParts(inputs);

@@ -39,7 +39,8 @@ void Psv::load(const frame::FrameInputs& inputs) {
   const gpu::Limits& limits = inputs.context.limits();
   gpu::require_storage_block(limits, node * (nodes + 1), "the tree of the model's triangles",
                              k_storage_remedy);
-  query_.emplace(query_pass(inputs.scene, false));
+  if (!query_ || transmits_ != inputs.scene.transmits()) query_.emplace(query_pass(inputs.scene, false));
+  transmits_ = inputs.scene.transmits();
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0u);
   if (options_.order == InsertionOrder::random)

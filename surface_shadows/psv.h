@@ -64,7 +64,8 @@ class Psv : public frame::SurfaceShadow {
   Occluders occluders_;
   gpu::Pipeline planes_program_, insert_program_;
   std::optional<frame::ScreenPass> query_;  ///< of the scene
-  std::uint64_t scene_ = 0;                 ///< SceneBuffers::id
+  bool transmits_ = false;
+  std::uint64_t scene_ = 0;  ///< SceneBuffers::id
   gpu::Buffer order_, planes_, links_, subtrees_;
   gpu::TexelView order_texels_, plane_texels_, link_texels_, subtree_texels_;
 };

@@ -6,8 +6,7 @@
 #include <limits>
 #include <numeric>
 #include <random>
-
-#include "scene/parallel.h"
+#include <utility>
 
 namespace airlight::surface_shadows {
 namespace {
@@ -123,15 +122,20 @@ class Chunk {
 
 TriangleClusters make_triangle_clusters(const scene::Geometry& geometry, std::span<const std::uint32_t> order,
                                         std::span<const std::uint32_t> part_of_triangle,
-                                        const ClusterSettings& settings) {
+                                        const ClusterSettings& settings,
+                                        std::span<const std::uint32_t> object_of_triangle,
+                                        const scene::Progress& progress) {
   TriangleClusters result;
   result.triangles.resize(order.size());
   std::iota(result.triangles.begin(), result.triangles.end(), 0u);
   const auto part_of = [&](std::uint32_t place) {
     return part_of_triangle.empty() ? 0u : part_of_triangle[place];
   };
+  const auto group_of = [&](std::uint32_t place) {
+    return std::pair(object_of_triangle.empty() ? 0u : object_of_triangle[place], part_of(place));
+  };
   std::stable_sort(result.triangles.begin(), result.triangles.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return part_of(a) < part_of(b); });
+                   [&](std::uint32_t a, std::uint32_t b) { return group_of(a) < group_of(b); });
 
   std::vector<Extent> extents(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -142,10 +146,10 @@ TriangleClusters make_triangle_clusters(const scene::Geometry& geometry, std::sp
     }
   }
 
-  // Chunks, none of which spans parts.
+  // Chunks, none of which spans parts or objects.
   std::vector<std::size_t> starts;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool is_first = i == 0 || part_of(result.triangles[i]) != part_of(result.triangles[i - 1]);
+    const bool is_first = i == 0 || group_of(result.triangles[i]) != group_of(result.triangles[i - 1]);
     if (is_first || i - starts.back() == k_chunk) starts.push_back(i);
   }
   starts.push_back(order.size());
@@ -169,7 +173,8 @@ TriangleClusters make_triangle_clusters(const scene::Geometry& geometry, std::sp
       first = end;
     }
   };
-  scene::parallel(static_cast<int>(of_chunks.size()), [&] { return cut_chunk; });
+  scene::parallel(
+      static_cast<int>(of_chunks.size()), [&] { return cut_chunk; }, progress);
   for (const std::vector<TriangleCluster>& of_chunk : of_chunks)
     result.clusters.insert(result.clusters.end(), of_chunk.begin(), of_chunk.end());
   return result;

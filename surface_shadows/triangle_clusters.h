@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "scene/parallel.h"
 #include "scene/scene.h"
 #include "surface_shadows/cluster_bounds.h"
 
@@ -35,10 +36,14 @@ struct ClusterSettings {
 /// speaks of their places in it
 /// @param part_of_triangle of each place in `order`: no cluster has triangles of two parts. None for one part
 /// of all, 0.
+/// @param object_of_triangle of each place in `order`: no cluster has triangles of two objects. None for one
+/// of all.
 /// Based on: the same, section 4; Meister, Bittner, "Parallel BVH construction using k-means clustering",
 /// The Visual Computer 32, 2016.
 TriangleClusters make_triangle_clusters(const scene::Geometry& geometry, std::span<const std::uint32_t> order,
                                         std::span<const std::uint32_t> part_of_triangle,
-                                        const ClusterSettings& settings);
+                                        const ClusterSettings& settings,
+                                        std::span<const std::uint32_t> object_of_triangle = {},
+                                        const scene::Progress& progress = {});
 
 }  // namespace airlight::surface_shadows

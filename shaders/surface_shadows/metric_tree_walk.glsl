@@ -9,6 +9,7 @@ layout(binding = k_clusters_unit) uniform usamplerBuffer clusters;
 layout(binding = k_cluster_triangles_unit) uniform usamplerBuffer cluster_triangles;
 layout(binding = k_always_asked_unit) uniform usamplerBuffer always_asked;
 layout(binding = k_metric_tree_unit) uniform usamplerBuffer nodes;  // four texels each
+layout(binding = k_partition_distances_unit) uniform samplerBuffer partition_distances;  // of each node, where they are stored
 layout(location = 1) uniform float scale;  // of positions
 layout(location = 2) uniform vec3 origin_high;
 layout(location = 3) uniform vec3 origin_low;
@@ -21,6 +22,7 @@ layout(constant_id = 31) const bool k_culls_by_distance = true;
 layout(constant_id = 32) const uint k_stack = 32;
 layout(constant_id = 33) const bool k_culls_by_interval = true;
 layout(constant_id = 35) const bool k_culls_by_slabs = true;
+layout(constant_id = 36) const bool k_stores_distances = false;
 
 uint plane_of(uint triangle) { return texelFetch(triangle_planes, int(triangle)).r; }
 
@@ -86,7 +88,9 @@ Children children_of(Query query, uint node, uint near_steps, bool asks) {
     uvec4 links = texelFetch(nodes, at + 2);
     uvec4 rest = texelFetch(nodes, at + 3);
     float distance = distance_to_arc(query.observer, uintBitsToFloat(from.xyz), uintBitsToFloat(to.xyz), query.place);
-    children.is_near = distance <= partition_distance(query.root_distance, near_steps);
+    float limit = partition_distance(query.root_distance, near_steps);
+    if (k_stores_distances) limit = texelFetch(partition_distances, int(node)).x;
+    children.is_near = distance <= limit;
     children.child = children.is_near ? links[k_near] : links[k_far];
     children.overlap = links[k_overlap];
     if (k_culls_by_interval) {
@@ -102,7 +106,7 @@ Children children_of(Query query, uint node, uint near_steps, bool asks) {
 }
 
 // A node that is left for later, and how many steps to what is near led there: δ is halved about twenty times at most before
-// nothing is near any more.
+// nothing is near any more. (Where it is stored there may be more, and no one asks.)
 const uint k_node_bits = 26u;
 
 // Visits all nodes that may hide the point, until nothing is left of the light. False where the stack did not hold what was left: then some were not.

@@ -1,15 +1,20 @@
 // Exact surface shadows on models under random lights and views: wrong and undecided pixels, nodes a pixel.
 //
-// `airlight_exact [--size N] [--scale S] [--offset X] [--factors] MODEL...`: built-in scenes or files. Of
-// each, ten views of N×N pixels (default 1024), from inside and outside, under lamps inside, outside, close
-// to the ground and far away and under suns, the same ones in every run. Positions are scaled by S and moved
-// by X sizes of the model, and rounded to float. Every pixel is judged (reference/surface_judge.h): of `psv`,
-// of `metric-tree`, which has to answer the same, and of the shadow cube of 2048².
+// `airlight_exact [--size N] [--scale S] [--offset X] [--factors|--clusters] MODEL...`: built-in scenes or
+// files. Of each, ten views of N×N pixels (default 1024), from inside and outside, under lamps inside,
+// outside, close to the ground and far away and under suns, the same ones in every run. Positions are scaled
+// by S and moved by X sizes of the model, and rounded to float. Every pixel is judged
+// (reference/surface_judge.h): of `psv`, of `metric-tree`, which has to answer the same, and of the shadow
+// cube of 2048².
 //
 // `--factors` instead: nodes a pixel of the same views, of both trees as their papers have them (triangles
 // that face the light left out where that is right), and by how much they grow with one of their means taken
 // away; of metric-tree clusters and triangles asked, too. All settings have to give the same image, but for
 // culling, whose pixels are judged.
+//
+// `--clusters` instead: of metric-tree how many triangles its clusters have, how many are capsules, the bytes
+// of clusters and tree and the time of grouping; and of the same views how much longer its queries take, and
+// how many more nodes they visit, than of the tree with medians that the CPU makes.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -24,6 +29,7 @@
 #include "frame/point_reader.h"
 #include "gpu/context.h"
 #include "quality/metrics.h"
+#include "quality/statistics.h"
 #include "quality/traced.h"
 #include "report.h"
 #include "scene/builtin.h"
@@ -206,16 +212,70 @@ void print_factors(gpu::Context& context, const std::string& name, const scene::
                                   {"cull=none, stackless", {.traversal = Traversal::stackless}},
                                   {"cull=none, file", {.order = InsertionOrder::file}},
                                   {"cull=none, no wedge", {.wedge = Wedge::off, .stack = 128}}});
-  print_factors<MetricTree, MetricTreeOptions>(context, geometry, size, "metric-tree",
-                                               {{"paper's", {.cull = Culling::automatic}},
-                                                {"cull=none", {}},
-                                                {"cull=none, spheres", {.capsules = Use::off}},
-                                                {"cull=none, no slabs", {.slabs = Use::off}},
-                                                {"cull=none, no distances", {.distance_cull = Use::off}},
-                                                {"cull=none, no intervals", {.interval_cull = Use::off}},
-                                                {"cull=none, all of space", {.light_view = Use::off}},
-                                                {"cull=none, cluster=8", {.cluster = 8}},
-                                                {"cull=none, cluster=32", {.cluster = 32}}});
+  print_factors<MetricTree, MetricTreeOptions>(
+      context, geometry, size, "metric-tree",
+      {{"paper's", {.cull = Culling::automatic}},
+       {"cull=none", {}},
+       {"cull=none, spheres", {.capsules = Use::off}},
+       {"cull=none, no slabs", {.slabs = Use::off}},
+       {"cull=none, no distances", {.distance_cull = Use::off}},
+       {"cull=none, no intervals", {.interval_cull = Use::off}},
+       {"cull=none, all of space", {.light_view = Use::off}},
+       {"cull=none, medians", {.build = surface_shadows::Build::median}},
+       {"cull=none, cluster=8", {.cluster = 8}},
+       {"cull=none, cluster=32", {.cluster = 32}}});
+}
+
+/// The median time of queries of a tree, each frame but the first [ms].
+double query_ms(gpu::Context& context, frame::Frame& frame, const scene::View& view, MetricTree& tree,
+                double& grouping_ms) {
+  std::vector<double> times;
+  for (int i = 0; i < 6; ++i) {
+    frame::NoAirlight none;
+    gpu::StageTimer timer(&context);
+    frame.render(view, tree, none, timer);
+    const std::map<std::string, double> stages = timer.milliseconds();
+    if (stages.contains("triangle_clusters")) grouping_ms = stages.at("triangle_clusters");
+    if (i > 0) times.push_back(stages.at("surface_query"));
+  }
+  return quality::median(times);
+}
+
+void print_clusters(gpu::Context& context, const std::string& name, const scene::Geometry& geometry,
+                    int size) {
+  const scene::Box box = scene::bounds(geometry);
+  frame::Frame frame(context, geometry, 16);
+  MetricTree tree({}), medians({.build = surface_shadows::Build::median});
+  bench::Counted<MetricTree> counted_tree(MetricTreeOptions{}),
+      counted_medians(MetricTreeOptions{.build = surface_shadows::Build::median});
+  tests::Random random(2015);
+  double grouping_ms = 0.0, worst_time = 1e30, all_times = 0.0, all_median_times = 0.0;
+  double worst_nodes = 1e30, all_nodes = 0.0, all_median_nodes = 0.0;
+  for (int i = 0; i < 10; ++i) {
+    const scene::View view = view_number(i, box, size, random);
+    const double median_ms = query_ms(context, frame, view, medians, grouping_ms),
+                 ms = query_ms(context, frame, view, tree, grouping_ms);
+    if (visibility_by(frame, view, counted_tree) != visibility_by(frame, view, counted_medians))
+      fmt::print(stderr, "view {}: not the same\n", i);
+    const double nodes = counted_tree.sums.at("surface_nodes"),
+                 median_nodes = counted_medians.sums.at("surface_nodes");
+    worst_time = std::min(worst_time, median_ms / ms);
+    worst_nodes = std::min(worst_nodes, median_nodes / nodes);
+    all_times += ms;
+    all_median_times += median_ms;
+    all_nodes += nodes;
+    all_median_nodes += median_nodes;
+  }
+  const std::map<std::string, std::int64_t> bytes = tree.bytes();
+  fmt::print(
+      "{}: {} triangles, {} clusters of {:.2f}, {:.1f} % capsules, {:.1f} MB, grouped in {:.0f} ms\n"
+      "  medians: {:.1f} % of the time of queries, of the worst view {:.1f} %; of the nodes {:.1f} %, {:.1f} "
+      "%\n",
+      name, geometry.triangles.size(), tree.cluster_count(),
+      static_cast<double>(geometry.triangles.size()) / std::max(1u, tree.cluster_count()),
+      100.0 * tree.capsule_share(), 1e-6 * static_cast<double>(bytes.at("clusters") + bytes.at("tree")),
+      grouping_ms, 100.0 * all_median_times / all_times, 100.0 * worst_time,
+      100.0 * all_median_nodes / all_nodes, 100.0 * worst_nodes);
 }
 
 scene::Geometry load(const std::string& name) {
@@ -226,11 +286,13 @@ scene::Geometry load(const std::string& name) {
 void run(const std::vector<std::string>& words) {
   int size = 1024;
   double scale = 1.0, offset = 0.0;
-  bool prints_factors = false;
+  bool prints_factors = false, prints_clusters = false;
   std::vector<std::string> models;
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (words[i] == "--factors")
       prints_factors = true;
+    else if (words[i] == "--clusters")
+      prints_clusters = true;
     else if (words[i] == "--size")
       size = std::stoi(words.at(++i));
     else if (words[i] == "--scale")
@@ -241,7 +303,7 @@ void run(const std::vector<std::string>& words) {
       models.push_back(words[i]);
   }
   gpu::Context context;
-  if (!prints_factors)
+  if (!prints_factors && !prints_clusters)
     fmt::print("{:<32} {:>10} {:>10} {:>8} {:>8} {:>10} {:>10} {:>8} {:>8} {:>10} {:>8}\n", "model",
                "triangles", "pixels", "wrong", "differ", "undecided", "map wrong", "psv", "most",
                "metric tree", "most");
@@ -257,12 +319,16 @@ void run(const std::vector<std::string>& words) {
       std::fflush(stdout);
       continue;
     }
+    if (prints_clusters) {
+      print_clusters(context, name, geometry, size);
+      std::fflush(stdout);
+      continue;
+    }
     const Row row = measure(context, geometry, size);
-    if (!prints_factors)
-      fmt::print("{:<32} {:>10} {:>10} {:>8} {:>8} {:>10} {:>10} {:>8.1f} {:>8} {:>10.1f} {:>8}\n", name,
-                 geometry.triangles.size(), row.pixels, row.wrong, row.other_by_clusters, row.undecided,
-                 row.wrong_by_map, row.nodes, row.most_nodes, row.nodes_of_clusters,
-                 row.most_nodes_of_clusters);
+    fmt::print("{:<32} {:>10} {:>10} {:>8} {:>8} {:>10} {:>10} {:>8.1f} {:>8} {:>10.1f} {:>8}\n", name,
+               geometry.triangles.size(), row.pixels, row.wrong, row.other_by_clusters, row.undecided,
+               row.wrong_by_map, row.nodes, row.most_nodes, row.nodes_of_clusters,
+               row.most_nodes_of_clusters);
     std::fflush(stdout);
   }
 }

@@ -26,6 +26,7 @@
 #include "quality/image_io.h"
 #include "quality/run_file.h"
 #include "scene/view_fields.h"
+#include "support/models.h"
 #include "support/paths.h"
 
 namespace airlight {
@@ -1537,6 +1538,73 @@ TEST_F(Paths, FitWhatIsAutomaticToAllFrames) {
     return compare(all)["runs"][0]["settings"]["alpha"].get<int>();
   };
   EXPECT_EQ(alpha({"--path", "zoom.toml"}), std::max(alpha({"--fov", "60"}), alpha({"--fov", "20"})));
+}
+
+/// A floor and, in its shadow's way, the triangle of a node that a path moves.
+TEST_F(Paths, MoveNodesOfAModel) {
+  Json document = tests::triangle();
+  const std::vector<float> floor = {-3, -1, -3, -3, -1, 3, 3, -1, 3, 3, -1, -3};
+  Json primitive = tests::primitive(document);
+  primitive["attributes"]["POSITION"] = tests::add_accessor(document, floor, tests::k_float, "VEC3");
+  primitive["indices"] =
+      tests::add_accessor(document, std::vector<std::uint16_t>{0, 1, 2, 0, 2, 3}, tests::k_u16, "SCALAR");
+  document["meshes"].push_back({{"primitives", {primitive}}});
+  document["nodes"][0]["name"] = "sail";
+  document["nodes"].push_back({{"mesh", 1}});
+  document["scenes"][0]["nodes"].push_back(1);
+  std::ofstream(file("model.gltf")) << document.dump();
+  std::ofstream(file("nodes.toml")) << "frames = 3\nseconds = 2\n[[node]]\nname = 'sail'\ntime = 0\n"
+                                       "[[node]]\nname = 'sail'\ntime = 1\ntranslation = [0, 0, 0]\n"
+                                       "[[node]]\nname = 'sail'\ntime = 2\ntranslation = [-1, 0, 0.5]\n"
+                                       "rotation = [0, 0.6, 0, 0.8]\n";
+  document["nodes"][0]["translation"] = {-1, 0, 0.5};
+  document["nodes"][0]["rotation"] = {0, 0.6, 0, 0.8};
+  std::ofstream(file("moved.gltf")) << document.dump();
+  const auto channels = [&](Words words, const char* volume, const char* surface, const char* image) {
+    words.insert(words.begin(), "render");
+    words.insert(words.end(), {"-o", "out.exr", "--light-position", "0.3,3,0.2", "--intensity", "9", "--eye",
+                               "0,2,6", "--target", "0,0,0", "--volume", volume, "--surface", surface});
+    const Result result = small(words);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return quality::read_exr(file(image)).channels;
+  };
+  const std::map<const char*, const char*> methods = {
+      {"vsv", "metric-tree"}, {"march", "shadow-map"}, {"reference", "reference"}};
+  for (const auto& [volume, surface] : methods) {
+    const auto rest = channels({"model.gltf"}, volume, surface, "out.exr"),
+               there = channels({"moved.gltf"}, volume, surface, "out.exr");
+    EXPECT_NE(rest, there);
+    const Words words = {"model.gltf", "--path", "nodes.toml", "--cache", "cache"};
+    for (int run = 0; run < 2; ++run) {
+      EXPECT_EQ(channels(words, volume, surface, "out_0002.exr"), there) << volume << ", run " << run;
+      EXPECT_EQ(quality::read_exr(file("out_0001.exr")).channels, rest);
+      EXPECT_EQ(quality::read_exr(file("out_0000.exr")).channels, rest);
+    }
+  }
+
+  Words words = {
+      "compare",   "model.gltf",  "--path",    "nodes.toml",      "-o",      "out",      "--light-position",
+      "0.3,3,0.2", "--intensity", "9",         "--eye",           "0,2,6",   "--target", "0,0,0",
+      "--volume",  "vsv",         "--surface", "metric-tree,psv", "--cache", "cache"};
+  const Result result = small(words);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Json results = Json::parse(read_text(file("out/results.json")));
+  EXPECT_THAT(tests::schema_violations(results, Json::parse(read_text(AIRLIGHT_SCHEMA))), IsEmpty());
+  EXPECT_EQ(results["path"]["frames"][1]["moves"], "nothing");
+  EXPECT_EQ(results["path"]["frames"][2]["moves"], "objects");
+  for (const Json& run : results["runs"])
+    for (const Json& frame : run["path"]["frames"]) EXPECT_EQ(frame["wrong_pixels"], 0) << run["surface"];
+
+  words[0] = "view";
+  words.resize(4);
+  const Result window = airlight(words);
+  expect_one_line_error(window, 2);
+  EXPECT_THAT(window.err, HasSubstr("--path: it moves nodes"));
+  std::ofstream(file("wrong.toml")) << "frames = 3\nseconds = 2\n[[node]]\nname = 'keel'\ntime = 0\n";
+  const Result wrong = airlight({"render", "model.gltf", "--path", "wrong.toml", "-o", "x.exr",
+                                 "--light-position", "0,3,0", "--intensity", "9"});
+  expect_one_line_error(wrong, 3);
+  EXPECT_THAT(wrong.err, HasSubstr("the scene has no node 'keel'; it has 'sail' (0), 'node1' (1)"));
 }
 
 TEST_F(Paths, ThatCannotBeAreErrors) {

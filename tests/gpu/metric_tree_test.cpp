@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <filesystem>
 #include <random>
 #include <string>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/errors.h"
 #include "support/frame_probe.h"
 #include "support/random.h"
 #include "support/scenes.h"
@@ -58,7 +60,10 @@ std::vector<Setting> settings() {
           {"other seed", {.seed = 2}},
           {"a stack of one", {.stack = 1}},
           {"a stack of one, one triangle", {.cluster = 1, .stack = 1}},
-          {"a stack of three", {.cluster = 2, .stack = 3}}};
+          {"a stack of three", {.cluster = 2, .stack = 3}},
+          {"medians", {.build = Build::median}},
+          {"medians, one triangle", {.cluster = 1, .build = Build::median}},
+          {"medians, a stack of one", {.cluster = 3, .build = Build::median, .stack = 1}}};
 }
 
 /// Keeps the methods, whose shaders take a driver long to make, for all tests of a suite.
@@ -71,6 +76,8 @@ class Trees : public testing::Test {
         culled_.emplace_back(
             "culled",
             MetricTreeOptions{.cluster = cluster, .normal_cones = normal_cones, .cull = Culling::automatic});
+    culled_.emplace_back("culled, medians",
+                         MetricTreeOptions{.cull = Culling::automatic, .build = Build::median});
   }
   static void TearDownTestSuite() {
     exact_.clear();
@@ -263,6 +270,52 @@ TEST_F(TreesOfClusters, OfAClosedMeshAroundTheLight) {
     EXPECT_EQ(count_lit(by_tree(geometry, view, {.cluster = cluster})), 0u);
 }
 
+TEST(MetricTree, OfMoreClustersThanAStorageBlockHoldsIsAnErrorThatNamesTheLimit) {
+  const ShadowCase& given = shadow_cases()[3];
+  MetricTree usual({});
+  const std::vector<float> expected = visibility(given.geometry, given.view, usual);
+  gpu::Limits limits = tests::gpu_context().limits();
+  const std::int64_t bytes = 64 * (std::int64_t{usual.cluster_count()} + 1);
+  limits.max_storage_block_bytes = bytes;
+  MetricTree just({}, limits);
+  EXPECT_TRUE(visibility(given.geometry, given.view, just) == expected);
+  limits.max_storage_block_bytes = bytes - 1;
+  MetricTree more({}, limits);
+  tests::expect_error(scene::ExitCode::driver,
+                      {"the tree of the model's clusters", "GL_MAX_SHADER_STORAGE_BLOCK_SIZE",
+                       "let clusters have more triangles (metric-tree:cluster=N)"},
+                      [&] { visibility(given.geometry, given.view, more); });
+  MetricTree larger({.cluster = 32}, limits);
+  EXPECT_TRUE(visibility(given.geometry, given.view, larger) == expected) << "the remedy helps";
+}
+
+TEST(MetricTree, KeepsItsClustersForTheNextRun) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "airlight_kept_clusters";
+  std::filesystem::remove_all(folder);
+  const ShadowCase& given = shadow_cases()[3];
+  std::vector<std::string> told;
+  const auto look = [&](const MetricTreeOptions& options, const std::string& made) {
+    frame::Frame frame(tests::gpu_context(), given.geometry, 16, {},
+                       {folder, [&](const std::string& what, double) { told.push_back(what); }});
+    frame::NoAirlight no_airlight;
+    gpu::StageTimer timer(&tests::gpu_context());
+    MetricTree tree(options);
+    frame.render(given.view, tree, no_airlight, timer);
+    EXPECT_TRUE(timer.milliseconds().contains("kept_clusters"));
+    EXPECT_EQ(timer.milliseconds().contains("triangle_clusters"), made == "made");
+    EXPECT_EQ(told.empty(), made != "made");
+    told.clear();
+    EXPECT_TRUE(frame.read().visibility.at(0) == by_brute(given.geometry, given.view));
+  };
+  look({}, "made");
+  look({}, "kept");
+  look({.seed = 3}, "kept");
+  look({.cluster = 8}, "made");
+  look({.capsules = Use::off}, "made");
+  look({.cluster = 8}, "kept");
+  std::filesystem::remove_all(folder);
+}
+
 /// Means over all pixels.
 struct Cost {
   double nodes, clusters, triangles;
@@ -301,6 +354,7 @@ TEST(MetricTree, IsSparedWorkByEachOfItsMeans) {
   EXPECT_GT(without({.distance_cull = Use::off}).nodes, usual.nodes);
   EXPECT_GT(without({.slabs = Use::off}).triangles, usual.triangles);
   const scene::Geometry long_ones = pickets();
+  EXPECT_LT(without({.build = Build::median}).nodes, 1.3 * usual.nodes);
   EXPECT_LT(cost_of(long_ones, given.view, {}).triangles,
             0.9 * cost_of(long_ones, given.view, {.capsules = Use::off}).triangles);
 }

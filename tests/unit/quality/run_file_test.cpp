@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "quality/hash.h"
 #include "scene/error.h"
+#include "scene/hash.h"
 
 namespace airlight::quality {
 namespace {
@@ -21,7 +21,7 @@ using testing::ElementsAre;
 TEST(Shards, HoldEachKeyOnceAndAboutAsManyEach) {
   std::vector<int> held(5, 0);
   for (int i = 0; i < 1000; ++i) {
-    const std::string key = hash_of(fmt::format("{}", i));
+    const std::string key = scene::hash_of(fmt::format("{}", i));
     int holders = 0;
     for (int number = 1; number <= 5; ++number) {
       if (!Shard{number, 5}.holds(key)) continue;
@@ -36,8 +36,8 @@ TEST(Shards, HoldEachKeyOnceAndAboutAsManyEach) {
 
 TEST(Hashes, AreThoseOfTheAlgorithm) {
   // The authors' offset basis, and their test vector of "a".
-  EXPECT_EQ(hash_of(""), "6c62272e07bb014262b821756295c58d");
-  EXPECT_EQ(hash_of("a"), "d228cb696f1a8caf78912b704e4a8964");
+  EXPECT_EQ(scene::hash_of(""), "6c62272e07bb014262b821756295c58d");
+  EXPECT_EQ(scene::hash_of("a"), "d228cb696f1a8caf78912b704e4a8964");
 }
 
 class RunFiles : public testing::Test {

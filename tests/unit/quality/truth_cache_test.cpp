@@ -113,6 +113,11 @@ TEST_F(Cache, TellsApartWhateverATruthDependsOn) {
   expect_new("a mask", [&] { cut_out(100, 0.5f, 0); });
   expect_new("its least alpha", [&] { cut_out(200, 0.75f, 0); });
   expect_new("its place", [&] { cut_out(200, 0.5f, 0.5f); });
+  expect_new("pose", [&] {
+    std::vector<std::uint32_t> of_triangle(geometry_.triangles.size(), 1);
+    view_.pose.objects = std::make_shared<const scene::Objects>(scene::Objects{{"all"}, of_triangle});
+    view_.pose.motions.emplace_back().matrix[3].x = 1e-3;
+  });
   SharedReference refined(geometry_, view_, {}, folder_);
   refined.exact(0, 2);
   EXPECT_EQ(files(), before + 1) << "refinement";

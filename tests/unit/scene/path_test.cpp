@@ -135,7 +135,7 @@ TEST_F(PathFile, ErrorsNameFileLineAndKey) {
   expect_error("frames = 3\nseconds = nan", "line 2, seconds: nan is not between");
   expect_error("frames = 3\nseconds = \n", "line 2: ");
   expect_error(k_head + "speed = 1\n",
-               "line 3: there is no key 'speed'; use camera, frames, light, seconds, sun");
+               "line 3: there is no key 'speed'; use camera, frames, light, node, seconds, sun");
   expect_error(k_head + "[camera]\ntime = 0\n",
                "line 3, camera: it must be tables, each begun by [[camera]]");
   expect_error(k_head + "[[camera]]\neye = [0, 0, 1]\n", "line 3, camera.time: it is missing");
@@ -161,6 +161,18 @@ TEST_F(PathFile, EveryFrameIsAViewThatCanBe) {
                    "[[camera]]\ntime = 0\neye = [0, 3, 4]\ntarget = [5, 3, 0]\n[[camera]]\ntime = 2\neye = "
                    "[0, 3, -4]\n",
                "frame 2 (1 s): light 'lamp': it is at the eye");
+}
+
+TEST(Motion, IsOfObjectsWhateverElseMoves) {
+  View before;
+  before.pose.objects = std::make_shared<const Objects>(Objects{{"door"}, {1}});
+  before.pose.motions = {Rigid{}};
+  View after = before;
+  EXPECT_EQ(motion_name(motion_between(before, after)), "nothing");
+  after.pose.motions[0].matrix[3].x = 1.0;
+  EXPECT_EQ(motion_name(motion_between(before, after)), "objects");
+  after.camera.target.x += 1.0;
+  EXPECT_EQ(motion_name(motion_between(before, after)), "objects");
 }
 
 TEST(Motion, IsOfTheCameraAndOfLights) {

@@ -57,6 +57,15 @@ void expect_bounded(const scene::Geometry& geometry, const ClusterBounds& bounds
   }
 }
 
+/// Any rotation, and a shift.
+scene::Rigid any_motion(tests::Random& random, double shift) {
+  const glm::dquat rotation = glm::normalize(glm::dquat(random.uniform(-1, 1), random.uniform(-1, 1) + 1e-3,
+                                                        random.uniform(-1, 1), random.uniform(-1, 1)));
+  scene::Rigid motion{glm::mat4_cast(rotation)};
+  motion.matrix[3] = glm::dvec4(shift * random.direction(), 1.0);
+  return motion;
+}
+
 ClusterBounds bounds_of_all(const scene::Geometry& geometry, bool has_capsules = true) {
   return bounds_of(geometry, geometry.triangles, has_capsules);
 }
@@ -84,12 +93,34 @@ TEST(ClusterBounds, HoldAllOfRandomAndDegenerateClusters) {
     const ClusterBounds bounds = bounds_of_all(geometry);
     expect_bounded(geometry, bounds, "cluster " + std::to_string(i));
     ++(bounds.is_sphere() ? spheres : capsules);
+
+    // Moved, and the corners rounded there: near, and so far away that they lose digits.
+    const scene::Rigid motion = any_motion(random, random.logarithmic(1e-3, 1e3) * (size + 1e-3));
+    scene::Geometry there = geometry;
+    for (glm::vec3& position : there.positions) position = glm::vec3(motion(glm::dvec3(position)));
+    expect_bounded(there, moved(bounds, motion), "moved cluster " + std::to_string(i));
+
     const ClusterBounds sphere = bounds_of_all(geometry, false);
     EXPECT_TRUE(sphere.is_sphere());
     expect_bounded(geometry, sphere, "sphere " + std::to_string(i));
   }
   EXPECT_GT(capsules, 500);
   EXPECT_GT(spheres, 500);
+}
+
+TEST(ClusterBounds, OfWhatMovesAreHardlyLarger) {
+  scene::Geometry sheet;
+  for (int i = 0; i < 8; ++i) tests::add_quad(sheet, {static_cast<float>(i), 5, 0}, {0, 0, 1}, {1, 0, 0});
+  const ClusterBounds bounds = bounds_of_all(sheet);
+  tests::Random random(2);
+  for (int i = 0; i < 100; ++i) {
+    const ClusterBounds there = moved(bounds, any_motion(random, 10.0));
+    EXPECT_NEAR(there.radius, bounds.radius, 1e-5f);
+    EXPECT_NEAR(glm::distance(there.from, there.to), glm::distance(bounds.from, bounds.to), 1e-5f);
+    EXPECT_NEAR(there.upper - there.lower, 0.0f, 5e-5f);
+    EXPECT_LT(there.opening, 5e-5f);
+    EXPECT_NEAR(there.least_altitude, bounds.least_altitude, 1e-5f);
+  }
 }
 
 TEST(ClusterBounds, AreTight) {

@@ -76,12 +76,37 @@ TEST(TriangleClusters, AreTheSameEachTime) {
   }
 }
 
+TEST(TriangleClusters, TellHowFarTheyAre) {
+  const scene::Geometry& geometry = tests::builtin("toroid").geometry;
+  std::vector<double> told;
+  make_triangle_clusters(geometry, order_of(geometry), {}, {}, {},
+                         [&](double fraction) { told.push_back(fraction); });
+  EXPECT_GT(told.size(), 3u);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_EQ(told.back(), 1.0);
+}
+
 TEST(TriangleClusters, SpanNoParts) {
   const scene::Geometry& geometry = tests::builtin("cornell").geometry;
   const std::vector<std::uint32_t> order = order_of(geometry);
   std::vector<std::uint32_t> parts(order.size());
   for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = static_cast<std::uint32_t>(i * i % 3);
   expect_whole(geometry, order, parts, make_triangle_clusters(geometry, order, parts, {}), 16);
+}
+
+TEST(TriangleClusters, SpanNoObjectsNeither) {
+  const scene::Geometry& geometry = tests::builtin("toroid").geometry;
+  const std::vector<std::uint32_t> order = order_of(geometry);
+  std::vector<std::uint32_t> parts(order.size()), objects(order.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    parts[i] = static_cast<std::uint32_t>(i * i % 3);
+    objects[i] = static_cast<std::uint32_t>(i / 7 % 2);
+  }
+  const TriangleClusters made = make_triangle_clusters(geometry, order, parts, {}, objects);
+  expect_whole(geometry, order, parts, made, 16);
+  for (const TriangleCluster& cluster : made.clusters)
+    for (std::uint32_t i = 0; i < cluster.count_and_part % k_part_unit; ++i)
+      ASSERT_EQ(objects[made.triangles[cluster.first + i]], objects[made.triangles[cluster.first]]);
 }
 
 TEST(TriangleClusters, OfTrianglesThatAreAllAlikeAndOfNone) {

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-namespace airlight::quality {
+namespace airlight::scene {
 
 /// FNV-1a of 128 bits, as 32 hexadecimal digits. Fowler, Noll, Vo, "The FNV Non-Cryptographic Hash
 /// Algorithm".
@@ -24,6 +24,7 @@ class Hash {
   void add(const std::vector<T>& values) {
     add(std::as_bytes(std::span(values)));
   }
+  void add(std::string_view text) { add(std::as_bytes(std::span(text))); }
 
   std::string text() const {
     return fmt::format("{:016x}{:016x}", static_cast<std::uint64_t>(word_ >> 64),
@@ -41,4 +42,4 @@ inline std::string hash_of(std::string_view text) {
   return hash.text();
 }
 
-}  // namespace airlight::quality
+}  // namespace airlight::scene
