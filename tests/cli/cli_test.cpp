@@ -261,7 +261,10 @@ TEST_P(Usage, IsRefusedInOneLineThatNamesTheCulprit) {
 INSTANTIATE_TEST_SUITE_P(
     Words, Usage,
     testing::Values(Misuse{{}, "names no command"}, Misuse{{"tune", "window"}, "tune"},
-                    Misuse{{"report", "out"}, "report"}, Misuse{{"--quiet"}, "--quiet"},
+                    Misuse{{"report"}, "DIR"}, Misuse{{"report", "out"}, "-o"},
+                    Misuse{{"report", "out", "-o", "x.exr"}, ".html"},
+                    Misuse{{"report", "out", "-o", "x.html", "--images", "0"}, "--images"},
+                    Misuse{{"report", "out", "--volume", "vsv"}, "--volume"}, Misuse{{"--quiet"}, "--quiet"},
                     Misuse{{"render"}, "SCENE"}, Misuse{{"render", "cornell"}, "-o"},
                     Misuse{{"render", "cornell", "-o"}, "-o"},
                     Misuse{{"render", "cornell", "-o", "x.jpg"}, ".exr"}, Misuse{{"scenes", "more"}, "more"},
@@ -1092,7 +1095,8 @@ TEST_F(Compare, DebugAddsPicturesOfTheGrid) {
       const std::vector<float>& values = image.channels.at("Y");
       EXPECT_EQ(*std::max_element(values.begin(), values.end()), picture["white"]);
       EXPECT_EQ(image.metadata.at("airlight.caption"), picture["caption"]);
-      EXPECT_THAT(report, HasSubstr(name.substr(name.rfind('+') + 1) + ".png"));
+      EXPECT_THAT(report,
+                  HasSubstr(fmt::format("<figcaption>{}; white is", picture["caption"].get<std::string>())));
       images[name.substr(prefix.size())] = image;
     }
     ASSERT_EQ(images.size(), 4u);
@@ -1218,7 +1222,7 @@ TEST_F(Compare, PrintsATableOrTheResults) {
   const Words words = {"compare", "cornell", "-o", "out", "--volume", "vsv", "--frames", "1"};
   const Result table = small(words);
   EXPECT_THAT(table.out, HasSubstr("rrmse %"));
-  EXPECT_THAT(table.err, HasSubstr("report.html"));
+  EXPECT_THAT(table.err, HasSubstr("xdg-open out/report.html"));
   EXPECT_EQ(table.err.find('\r'), std::string::npos) << "progress belongs on a terminal";
 
   Words with_json = words;
@@ -1294,7 +1298,8 @@ TEST_F(Compare, DarkReferenceGivesNoRelativeError) {
     EXPECT_THAT(tests::schema_violations(results, schema), IsEmpty());
     for (const std::string& text : {read_text(file("out/report.html")), read_text(file("stdout"))}) {
       EXPECT_THAT(text, HasSubstr("is not above the floor"));
-      for (const char* word : {"inf ", "inf<", "nan"}) EXPECT_EQ(text.find(word), std::string::npos) << word;
+      for (const char* word : {"inf ", "inf<", ">inf", " nan", ">nan"})
+        EXPECT_EQ(text.find(word), std::string::npos) << word;
     }
   }
   const Json bright = compare({"--intensity", "1e-20", "--volume", "vsv"});
@@ -1728,6 +1733,38 @@ TEST_F(Sweep, ShowsItsFront) {
   expect_one_line_error(airlight({"front", "nosuch"}), 3);
   expect_one_line_error(airlight({"front"}), 2);
   expect_one_line_error(airlight({"front", "a", "--volume", "vsv"}), 2);
+}
+
+TEST_F(Sweep, IsJoinedWithComparisonsInOneReport) {
+  const Words view = {"--size", "32x32"};
+  ASSERT_EQ(sweep(k_grids + view + Words{"--shard", "1/2", "-o", "swept"}).exit_code, 0);
+  ASSERT_EQ(sweep(k_grids + view + Words{"--shard", "2/2", "-o", "swept"}).exit_code, 0);
+  ASSERT_EQ(airlight({"compare", "cornell", "--size", "32x32", "--frames", "1", "--shadow-map", "64",
+                      "--volume", "vsv:alpha=16:theta=64:phi=128,march", "-o", "compared"})
+                .exit_code,
+            0);
+  const Result joined = airlight({"report", "swept", "compared", "swept", "-o", "new/page.html"});
+  ASSERT_EQ(joined.exit_code, 0) << joined.err;
+  EXPECT_THAT(joined.out, IsEmpty());
+  EXPECT_THAT(joined.err, HasSubstr("xdg-open new/page.html"));
+  const std::string page = read_text(file("new/page.html"));
+  const std::string begin = "id=\"data\">";
+  const std::size_t from = page.find(begin) + begin.size();
+  const Json data = Json::parse(page.substr(from, page.find("</script>", from) - from));
+  ASSERT_EQ(data["runs"].size(), 9u) << "one of the comparison's is one of the sweep's";
+  EXPECT_EQ(data["images"]["runs"].size(), 2u) << "which has its images";
+  EXPECT_EQ(data["images"]["size"], (Json{32, 32}));
+
+  ASSERT_EQ(sweep(k_grids + Words{"-o", "smaller"}).exit_code, 0);
+  const Result other = airlight({"report", "compared", "smaller", "-o", "other.html"});
+  expect_one_line_error(other, 3);
+  EXPECT_THAT(other.err, HasSubstr("smaller/runs.jsonl, line 1: it shows another scene or view"));
+  const Result missing = airlight({"report", "nosuch", "-o", "other.html"});
+  expect_one_line_error(missing, 3);
+  EXPECT_THAT(missing.err, HasSubstr("nosuch"));
+  EXPECT_FALSE(fs::exists(file("other.html")));
+  EXPECT_THAT(airlight({"report", "swept", "-o", "alone.html", "--quiet"}).err, IsEmpty());
+  EXPECT_THAT(read_text(file("alone.html")), HasSubstr("A sweep keeps no images"));
 }
 
 TEST_F(Paths, AreSweptViewByView) {
