@@ -26,6 +26,9 @@ void tune(const Options& options);
 /// Tells what sweeps have measured: see quality::read_fronts.
 void front(const Options& options);
 
+/// Joins what `compare` and `sweep` have written in one page: see quality::report_html.
+void report(const Options& options);
+
 /// Metrics of images, whoever rendered them: see quality/image_pair.h.
 void image(const Options& options);
 

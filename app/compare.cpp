@@ -152,10 +152,10 @@ void compare(const Options& options) {
   }
   const std::string results = quality::results_json(comparison);
   quality::write_text(folder / "results.json", results);
-  quality::write_text(folder / "report.html", quality::report_html(comparison));
+  quality::write_text(folder / "report.html", quality::report_html({&folder, 1}));
   if (json && *json != "-") quality::write_text(*json, results);
   print(json == "-" ? results : quality::results_table(comparison));
-  if (!options.quiet) say(fmt::format("{} written", (folder / "report.html").string()));
+  if (!options.quiet) say_page(folder / "report.html");
   if (limit) require_accuracy(comparison, *limit);
   if (undecided_limit) require_decided(comparison, *undecided_limit);
 }

@@ -54,7 +54,8 @@ CLI::App& add_image_command(CLI::App& app, Options& options, const char* name, c
 /// be.
 /// @returns Options::given
 std::vector<std::pair<std::string, std::string>> read_words(const CLI::App& app, int argc, char** argv) {
-  constexpr const char* k_commands = "use view, render, compare, sweep, tune, front, image, scenes or info";
+  constexpr const char* k_commands =
+      "use view, render, compare, sweep, tune, front, report, image, scenes or info";
   if (argc < 2) throw Error(ExitCode::usage, "command line", "it names no command", k_commands);
   if (argv[1][0] == '-') {
     if (app.get_option_no_throw(argv[1])) return {};
@@ -212,6 +213,21 @@ int run(int argc, char** argv) {
                              "what says how far a run is from the truth: rrmse (default: of pixels that see "
                              "the same surface as the truth), p99, flip, flicker"});
 
+  CLI::App& report_command = *app.add_subcommand(
+      "report", "joins what compare and sweep have written, shards too, in one page that needs nothing else");
+  report_command
+      .add_option(
+          "DIR", options.places,
+          "folders that compare or sweep has written, or results.json and .jsonl files, of one scene and "
+          "view. Of a run that is there several times on one device the first one's figures count")
+      ->type_name("");
+  report_command.add_option("-o", options.output, "the page")->type_name("FILE.html");
+  add_option(
+      report_command,
+      {"images", "N",
+       "images that the page holds whole, the truth's included (default: 8); of others it holds crops"});
+  report_command.add_flag("--quiet", options.quiet, "say nothing but errors");
+
   CLI::App& image_command = *app.add_subcommand(
       "image", "metrics of OpenEXR images, whoever rendered them: diff, error, flip, info or crop");
   image_command
@@ -265,6 +281,8 @@ int run(int argc, char** argv) {
     tune(options);
   } else if (front_command.parsed()) {
     front(options);
+  } else if (report_command.parsed()) {
+    report(options);
   } else if (image_command.parsed()) {
     image(options);
   } else if (scenes_command.parsed()) {

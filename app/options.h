@@ -25,14 +25,14 @@ struct OptionLine {
 /// What `render`, `compare` and `sweep` share.
 std::span<const OptionLine> common_options();
 
-/// The command line of `render`, `compare`, `sweep` or `front` as it was typed.
+/// The command line of a command as it was typed.
 struct Options {
   std::string command;  ///< "render", "compare" or "sweep"
   std::string scene;    ///< SCENE
   /// Each option that was typed, by its name without dashes, and its value, in their order: those of lights
   /// may be there several times.
   std::vector<std::pair<std::string, std::string>> given;
-  std::vector<std::string> places;  ///< DIR of `front`, words of `image`
+  std::vector<std::string> places;  ///< DIR of `front` and `report`, words of `image`
   std::string output;               ///< -o; empty without
   bool quiet = false;
   bool debug = false;    ///< of `compare`

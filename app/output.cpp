@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "quality/results.h"
 #include "scene/error.h"
 
 namespace airlight::app {
@@ -47,6 +48,10 @@ void say(std::string_view line) {
     if (std::iscntrl(static_cast<unsigned char>(c))) c = ' ';
   }
   fmt::print(stderr, "{}\n", text);
+}
+
+void say_page(const std::filesystem::path& file) {
+  say(fmt::format("{} written; to open it: xdg-open {}", file.string(), quality::shell_quote(file.string())));
 }
 
 void say_warnings(const scene::ImportReport& report) {

@@ -23,6 +23,9 @@ void print(std::string_view text);
 /// One line of talk, to standard error, control characters replaced.
 void say(std::string_view line);
 
+/// Says that a page was written, and how to open it.
+void say_page(const std::filesystem::path& file);
+
 /// Says what the importer dropped or could not represent.
 void say_warnings(const scene::ImportReport& report);
 

@@ -4,8 +4,8 @@ build_packages=(
   ca-certificates ccache cmake g++ glslang-tools libcli11-dev libegl-dev libegl1 libeigen3-dev libembree-dev libepoxy-dev
   libfmt-dev libgl1-mesa-dri libglfw3-dev libglm-dev libimgui-dev libjpeg62-turbo-dev libopenexr-dev libpng-dev libtinygltf-dev
   libtinyobjloader-dev
-  libtomlplusplus-dev ninja-build nlohmann-json3-dev pkg-config)
-test_packages=(libgmock-dev libgtest-dev mesa-vulkan-drivers openbox xdotool xvfb)
+  libtomlplusplus-dev ninja-build nlohmann-json3-dev pkg-config zlib1g-dev)
+test_packages=(chromium libgmock-dev libgtest-dev mesa-vulkan-drivers openbox xdotool xvfb)
 
 # Installs the Debian packages that are missing; without root, says which those are.
 install_packages() {

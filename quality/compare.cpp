@@ -10,6 +10,7 @@
 #include "quality/judge.h"
 #include "quality/measure.h"
 #include "quality/pictures.h"
+#include "quality/sweep.h"
 #include "quality/truth.h"
 
 namespace airlight::quality {
@@ -188,7 +189,10 @@ Run judged_run(Measurer& measurer, std::span<const scene::View> views, bool is_p
 
 Comparison compare(gpu::Context& context, const CompareRequest& request) {
   Comparison comparison;
+  const std::span<const scene::View> views =
+      request.path ? std::span<const scene::View>(request.path->views) : std::span(&request.view, 1);
   comparison.scene = request.scene_name;
+  comparison.subject = hash_of_subject(request.scene.geometry, views);
   comparison.triangles = request.scene.geometry.triangles.size();
   comparison.report = request.scene.report;
   comparison.view = request.view;
@@ -218,8 +222,7 @@ Comparison compare(gpu::Context& context, const CompareRequest& request) {
   for (const VolumeChoice& volume : request.volumes) {
     for (const SurfaceChoice& surface : request.surfaces) {
       std::string command;
-      Run run = judged_run(measurer, request.path ? request.path->views : std::span(&request.view, 1),
-                           request.path, truths, volume, surface, request.frames,
+      Run run = judged_run(measurer, views, request.path, truths, volume, surface, request.frames,
                            [&](const Run& judged, std::size_t i, const frame::FrameImages& images) {
                              command = command_of(request, judged.name, volume, surface);
                              if (!request.path)
@@ -230,6 +233,8 @@ Comparison compare(gpu::Context& context, const CompareRequest& request) {
                                             truths[i].shown_by(surface.method->traits), comparison.exposure);
                            });
       run.command = command;
+      if (is_read("shadow-map", {&volume, 1}, {&surface, 1})) run.shadow_map = request.shadow_map_size;
+      run.key = key_of(comparison.subject, {volume, surface, run.shadow_map});
       if (request.debug && !request.path)
         run.debug_images = write_debug_images(request, run, measurer.debug_images(volume));
       comparison.runs.push_back(std::move(run));

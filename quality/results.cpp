@@ -197,6 +197,70 @@ std::string layout(const std::vector<std::vector<std::string>>& rows, std::size_
 
 namespace {
 
+/// The names of all stages of all runs.
+std::set<std::string> stages_of(const Comparison& comparison) {
+  std::set<std::string> stages;
+  for (const Run& run : comparison.runs)
+    for (const auto& [stage, ms] : run.cost.stages_ms) stages.insert(stage);
+  return stages;
+}
+
+/// A row of the table of stages.
+struct StagesRow {
+  const Run& run;
+  std::string light;  ///< its name; "all" for all lights, and what is no light's
+  const std::map<std::string, double>& stages_ms;
+};
+
+/// Each run's, followed, where there are several lights, by one for each.
+std::vector<StagesRow> stages_rows(const Comparison& comparison) {
+  std::vector<StagesRow> rows;
+  for (const Run& run : comparison.runs) {
+    rows.push_back({run, "all", run.cost.stages_ms});
+    if (comparison.view.lights.size() == 1) continue;
+    for (std::size_t i = 0; i < run.cost.lights.size(); ++i) {
+      const Cost::OfLight& light = run.cost.lights[i];
+      rows.push_back(
+          {run, comparison.view.lights[i].name + (light.is_skipped ? " (skipped)" : ""), light.stages_ms});
+    }
+  }
+  return rows;
+}
+
+/// Time and error of each run along the path, mean and worst over its frames: volume, surface, frame [ms],
+/// worst, rrmse [%], worst, same-surface rrmse [%], worst, flicker [%], worst, worst frame.
+std::vector<std::vector<std::string>> spread_rows(const Comparison& comparison) {
+  const auto error = [&](double value) { return error_text(value, comparison.truth.bound); };
+  // It is the difference of two errors, each known to the reference's own.
+  const auto change = [&](double value) {
+    return std::isnan(value) ? "-" : error_text(value, 2.0 * comparison.truth.bound);
+  };
+  std::vector<std::vector<std::string>> rows;
+  for (const Run& run : comparison.runs) {
+    const PathSpreads spreads = path_spreads(run);
+    rows.push_back({run.volume, run.surface, fmt::format("{:.2f}", spreads.ms.mean),
+                    fmt::format("{:.2f}", spreads.ms.worst), error(spreads.rrmse.mean),
+                    error(spreads.rrmse.worst), error(spreads.same_surface_rrmse.mean),
+                    error(spreads.same_surface_rrmse.worst), change(spreads.flicker.mean),
+                    change(spreads.flicker.worst), fmt::format("{}", run.worst_frame)});
+  }
+  return rows;
+}
+
+/// Each run's frames apart by what moves (shares_of_motion): volume, surface, what moves, frames, shadow maps
+/// redrawn, volumes redrawn, frame [ms].
+std::vector<std::vector<std::string>> motion_rows(const Comparison& comparison) {
+  std::vector<std::vector<std::string>> rows;
+  for (const Run& run : comparison.runs) {
+    for (const MotionShare& share : shares_of_motion(*comparison.path, run)) {
+      rows.push_back({run.volume, run.surface, std::string(scene::motion_name(share.motion)),
+                      fmt::format("{}", share.frames), fmt::format("{}", share.shadow_maps),
+                      fmt::format("{}", share.volumes), fmt::format("{:.2f}", share.ms)});
+    }
+  }
+  return rows;
+}
+
 /// Time and error of each run along a path, and apart for each motion from frame to frame.
 std::string path_tables(const Comparison& comparison) {
   const ComparedPath& path = *comparison.path;
@@ -284,57 +348,6 @@ std::map<std::string, std::string> view_options(const scene::View& view) {
   return options;
 }
 
-std::set<std::string> stages_of(const Comparison& comparison) {
-  std::set<std::string> stages;
-  for (const Run& run : comparison.runs)
-    for (const auto& [stage, ms] : run.cost.stages_ms) stages.insert(stage);
-  return stages;
-}
-
-std::vector<StagesRow> stages_rows(const Comparison& comparison) {
-  std::vector<StagesRow> rows;
-  for (const Run& run : comparison.runs) {
-    rows.push_back({run, "all", run.cost.stages_ms});
-    if (comparison.view.lights.size() == 1) continue;
-    for (std::size_t i = 0; i < run.cost.lights.size(); ++i) {
-      const Cost::OfLight& light = run.cost.lights[i];
-      rows.push_back(
-          {run, comparison.view.lights[i].name + (light.is_skipped ? " (skipped)" : ""), light.stages_ms});
-    }
-  }
-  return rows;
-}
-
-std::vector<std::vector<std::string>> spread_rows(const Comparison& comparison) {
-  const auto error = [&](double value) { return error_text(value, comparison.truth.bound); };
-  // It is the difference of two errors, each known to the reference's own.
-  const auto change = [&](double value) {
-    return std::isnan(value) ? "-" : error_text(value, 2.0 * comparison.truth.bound);
-  };
-  std::vector<std::vector<std::string>> rows;
-  for (const Run& run : comparison.runs) {
-    const PathSpreads spreads = path_spreads(run);
-    rows.push_back({run.volume, run.surface, fmt::format("{:.2f}", spreads.ms.mean),
-                    fmt::format("{:.2f}", spreads.ms.worst), error(spreads.rrmse.mean),
-                    error(spreads.rrmse.worst), error(spreads.same_surface_rrmse.mean),
-                    error(spreads.same_surface_rrmse.worst), change(spreads.flicker.mean),
-                    change(spreads.flicker.worst), fmt::format("{}", run.worst_frame)});
-  }
-  return rows;
-}
-
-std::vector<std::vector<std::string>> motion_rows(const Comparison& comparison) {
-  std::vector<std::vector<std::string>> rows;
-  for (const Run& run : comparison.runs) {
-    for (const MotionShare& share : shares_of_motion(*comparison.path, run)) {
-      rows.push_back({run.volume, run.surface, std::string(scene::motion_name(share.motion)),
-                      fmt::format("{}", share.frames), fmt::format("{}", share.shadow_maps),
-                      fmt::format("{}", share.volumes), fmt::format("{:.2f}", share.ms)});
-    }
-  }
-  return rows;
-}
-
 std::string dark_text(const TruthFigures& truth) {
   return fmt::format(
       "dark: the reference's mean airlight, {:.2g} W/(m2 sr), is not above the floor of {:.2g}, a millionth "
@@ -352,9 +365,14 @@ std::string error_text(double rrmse, double bound) {
 
 std::string results_json(const Comparison& comparison) {
   Json runs = Json::array();
-  for (const Run& run : comparison.runs) runs.push_back(run_json(run, comparison.view));
+  for (const Run& run : comparison.runs) {
+    Json json = {{"key", run.key}, {"shadow_map", run.shadow_map ? Json(*run.shadow_map) : Json(nullptr)}};
+    json.update(run_json(run, comparison.view));
+    runs.push_back(std::move(json));
+  }
   Json json = {
       {"airlight", version()},
+      {"subject", comparison.subject},
       {"scene",
        {{"name", comparison.scene},
         {"triangles", comparison.triangles},

@@ -5,7 +5,6 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -32,8 +31,10 @@ struct Run {
     Errors errors;
     double flicker = std::numeric_limits<double>::quiet_NaN();  ///< since the frame before, if there is one
   };
-  std::string volume, surface;                                 ///< specs, as the user wrote them
-  std::string name;                                            ///< stem of its images' file names
+  std::string key;                ///< see key_of
+  std::optional<int> shadow_map;  ///< side of a cube face [texels], where a method reads it
+  std::string volume, surface;    ///< specs, as the user wrote them
+  std::string name;               ///< stem of its images' file names
   std::map<std::string, frame::OptionValue> settings;          ///< what the volume method was told
   std::map<std::string, frame::OptionValue> surface_settings;  ///< what the surface method was told
   std::string command;                                         ///< repeats this run
@@ -90,7 +91,8 @@ std::vector<MotionShare> shares_of_motion(const ComparedPath& path, const Run& r
 
 /// What `airlight compare` found.
 struct Comparison {
-  std::string scene;  ///< as the user named it
+  std::string scene;    ///< as the user named it
+  std::string subject;  ///< see hash_of_subject
   std::size_t triangles = 0;
   scene::ImportReport report;
   scene::View view;
@@ -114,27 +116,6 @@ std::string results_table(const Comparison& comparison);
 
 /// Lays out rows of cells: the first `left` columns to the left, the others to the right.
 std::string layout(const std::vector<std::vector<std::string>>& rows, std::size_t left);
-
-/// The names of all stages of all runs.
-std::set<std::string> stages_of(const Comparison& comparison);
-
-/// A row of the table of stages.
-struct StagesRow {
-  const Run& run;
-  std::string light;  ///< its name; "all" for all lights, and what is no light's
-  const std::map<std::string, double>& stages_ms;
-};
-
-/// Each run's, followed, where there are several lights, by one for each.
-std::vector<StagesRow> stages_rows(const Comparison& comparison);
-
-/// Time and error of each run along the path, mean and worst over its frames: volume, surface, frame [ms],
-/// worst, rrmse [%], worst, same-surface rrmse [%], worst, flicker [%], worst, worst frame.
-std::vector<std::vector<std::string>> spread_rows(const Comparison& comparison);
-
-/// Each run's frames apart by what moves (shares_of_motion): volume, surface, what moves, frames, shadow maps
-/// redrawn, volumes redrawn, frame [ms].
-std::vector<std::vector<std::string>> motion_rows(const Comparison& comparison);
 
 /// Says that the truth is dark, and what that means.
 std::string dark_text(const TruthFigures& truth);

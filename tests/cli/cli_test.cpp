@@ -306,7 +306,10 @@ TEST_P(Usage, IsRefusedInOneLineThatNamesTheCulprit) {
 INSTANTIATE_TEST_SUITE_P(
     Words, Usage,
     testing::Values(Misuse{{}, "names no command"}, Misuse{{"tune", "window"}, "tune"},
-                    Misuse{{"report", "out"}, "report"}, Misuse{{"--quiet"}, "--quiet"},
+                    Misuse{{"report"}, "DIR"}, Misuse{{"report", "out"}, "-o"},
+                    Misuse{{"report", "out", "-o", "x.exr"}, ".html"},
+                    Misuse{{"report", "out", "-o", "x.html", "--images", "0"}, "--images"},
+                    Misuse{{"report", "out", "--volume", "vsv"}, "--volume"}, Misuse{{"--quiet"}, "--quiet"},
                     Misuse{{"render"}, "SCENE"}, Misuse{{"render", "cornell"}, "-o"},
                     Misuse{{"render", "cornell", "-o"}, "-o"},
                     Misuse{{"render", "cornell", "-o", "x.jpg"}, ".exr"}, Misuse{{"scenes", "more"}, "more"},
@@ -1137,7 +1140,8 @@ TEST_F(Compare, DebugAddsPicturesOfTheGrid) {
       const std::vector<float>& values = image.channels.at("Y");
       EXPECT_EQ(*std::max_element(values.begin(), values.end()), picture["white"]);
       EXPECT_EQ(image.metadata.at("airlight.caption"), picture["caption"]);
-      EXPECT_THAT(report, HasSubstr(name.substr(name.rfind('+') + 1) + ".png"));
+      EXPECT_THAT(report,
+                  HasSubstr(fmt::format("<figcaption>{}; white is", picture["caption"].get<std::string>())));
       images[name.substr(prefix.size())] = image;
     }
     ASSERT_EQ(images.size(), 4u);
@@ -1263,7 +1267,7 @@ TEST_F(Compare, PrintsATableOrTheResults) {
   const Words words = {"compare", "cornell", "-o", "out", "--volume", "vsv", "--frames", "1"};
   const Result table = small(words);
   EXPECT_THAT(table.out, HasSubstr("rrmse %"));
-  EXPECT_THAT(table.err, HasSubstr("report.html"));
+  EXPECT_THAT(table.err, HasSubstr("xdg-open out/report.html"));
   EXPECT_EQ(table.err.find('\r'), std::string::npos) << "progress belongs on a terminal";
 
   Words with_json = words;
@@ -1339,7 +1343,8 @@ TEST_F(Compare, DarkReferenceGivesNoRelativeError) {
     EXPECT_THAT(tests::schema_violations(results, schema), IsEmpty());
     for (const std::string& text : {read_text(file("out/report.html")), read_text(file("stdout"))}) {
       EXPECT_THAT(text, HasSubstr("is not above the floor"));
-      for (const char* word : {"inf ", "inf<", "nan"}) EXPECT_EQ(text.find(word), std::string::npos) << word;
+      for (const char* word : {"inf ", "inf<", ">inf", " nan", ">nan"})
+        EXPECT_EQ(text.find(word), std::string::npos) << word;
     }
   }
   const Json bright = compare({"--intensity", "1e-20", "--volume", "vsv"});
@@ -1553,10 +1558,11 @@ TEST_F(Paths, MoveNodesOfAModel) {
   document["nodes"].push_back({{"mesh", 1}});
   document["scenes"][0]["nodes"].push_back(1);
   std::ofstream(file("model.gltf")) << document.dump();
-  std::ofstream(file("nodes.toml")) << "frames = 3\nseconds = 2\n[[node]]\nname = 'sail'\ntime = 0\n"
-                                       "[[node]]\nname = 'sail'\ntime = 1\ntranslation = [0, 0, 0]\n"
-                                       "[[node]]\nname = 'sail'\ntime = 2\ntranslation = [-1, 0, 0.5]\n"
-                                       "rotation = [0, 0.6, 0, 0.8]\n";
+  std::ofstream(file("nodes.toml"))
+      << "frames = 3\nseconds = 2\n[[node]]\nname = 'sail'\ntime = 0\n"
+         "[[node]]\nname = 'sail'\ntime = 1\ntranslation = [0, 0, 0]\nrotation = [0, 0, 0, 1]\n"
+         "[[node]]\nname = 'sail'\ntime = 2\ntranslation = [-1, 0, 0.5]\n"
+         "rotation = [0, 0.6, 0, 0.8]\n";
   document["nodes"][0]["translation"] = {-1, 0, 0.5};
   document["nodes"][0]["rotation"] = {0, 0.6, 0, 0.8};
   std::ofstream(file("moved.gltf")) << document.dump();
@@ -1595,9 +1601,8 @@ TEST_F(Paths, MoveNodesOfAModel) {
   for (const Json& run : results["runs"])
     for (const Json& frame : run["path"]["frames"]) EXPECT_EQ(frame["wrong_pixels"], 0) << run["surface"];
 
-  words[0] = "view";
-  words.resize(4);
-  const Result window = airlight(words);
+  const Result window = airlight(
+      {"view", "model.gltf", "--path", "nodes.toml", "--light-position", "0.3,3,0.2", "--intensity", "9"});
   expect_one_line_error(window, 2);
   EXPECT_THAT(window.err, HasSubstr("--path: it moves nodes"));
   std::ofstream(file("wrong.toml")) << "frames = 3\nseconds = 2\n[[node]]\nname = 'keel'\ntime = 0\n";
@@ -1840,6 +1845,38 @@ TEST_F(Sweep, ShowsItsFront) {
   expect_one_line_error(airlight({"front", "nosuch"}), 3);
   expect_one_line_error(airlight({"front"}), 2);
   expect_one_line_error(airlight({"front", "a", "--volume", "vsv"}), 2);
+}
+
+TEST_F(Sweep, IsJoinedWithComparisonsInOneReport) {
+  const Words view = {"--size", "32x32"};
+  ASSERT_EQ(sweep(k_grids + view + Words{"--shard", "1/2", "-o", "swept"}).exit_code, 0);
+  ASSERT_EQ(sweep(k_grids + view + Words{"--shard", "2/2", "-o", "swept"}).exit_code, 0);
+  ASSERT_EQ(airlight({"compare", "cornell", "--size", "32x32", "--frames", "1", "--shadow-map", "64",
+                      "--volume", "vsv:alpha=16:theta=64:phi=128,march", "-o", "compared"})
+                .exit_code,
+            0);
+  const Result joined = airlight({"report", "swept", "compared", "swept", "-o", "new/page.html"});
+  ASSERT_EQ(joined.exit_code, 0) << joined.err;
+  EXPECT_THAT(joined.out, IsEmpty());
+  EXPECT_THAT(joined.err, HasSubstr("xdg-open new/page.html"));
+  const std::string page = read_text(file("new/page.html"));
+  const std::string begin = "id=\"data\">";
+  const std::size_t from = page.find(begin) + begin.size();
+  const Json data = Json::parse(page.substr(from, page.find("</script>", from) - from));
+  ASSERT_EQ(data["runs"].size(), 9u) << "one of the comparison's is one of the sweep's";
+  EXPECT_EQ(data["images"]["runs"].size(), 2u) << "which has its images";
+  EXPECT_EQ(data["images"]["size"], (Json{32, 32}));
+
+  ASSERT_EQ(sweep(k_grids + Words{"-o", "smaller"}).exit_code, 0);
+  const Result other = airlight({"report", "compared", "smaller", "-o", "other.html"});
+  expect_one_line_error(other, 3);
+  EXPECT_THAT(other.err, HasSubstr("smaller/runs.jsonl, line 1: it shows another scene or view"));
+  const Result missing = airlight({"report", "nosuch", "-o", "other.html"});
+  expect_one_line_error(missing, 3);
+  EXPECT_THAT(missing.err, HasSubstr("nosuch"));
+  EXPECT_FALSE(fs::exists(file("other.html")));
+  EXPECT_THAT(airlight({"report", "swept", "-o", "alone.html", "--quiet"}).err, IsEmpty());
+  EXPECT_THAT(read_text(file("alone.html")), HasSubstr("A sweep keeps no images"));
 }
 
 TEST_F(Paths, AreSweptViewByView) {
