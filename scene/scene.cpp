@@ -208,7 +208,8 @@ void show_flat(Scene& scene) {
   if (masks > 0)
     scene.report.warnings.push_back(
         fmt::format("alpha masks of materials ignored ({}): surfaces are opaque", masks));
-  for (Material& material : geometry.materials) material = {.albedo = material.albedo, .transmittance = material.transmittance};
+  for (Material& material : geometry.materials)
+    material = {.albedo = material.albedo, .transmittance = material.transmittance};
   geometry.textures.clear();
   geometry.texture_places.clear();
   geometry.normals.clear();

@@ -84,7 +84,8 @@ vec3 lamp_airlight(MediumRay ray, float offset) {
   return airlight_scale(space, light, medium, ray.angle.sine) * sum;
 }
 
-// A ray's airlight, as much as this pass adds, and what it was multiplied by: what is gathered is smooth where a lamp is seen, where airlight grows as 1/sin α.
+// A ray's airlight, as much as this pass adds, and what it was multiplied by: what is gathered is smooth where a lamp is seen, where
+// airlight grows as 1/sin α.
 vec4 march_airlight(MediumRay ray, ivec2 pixel) {
   float offset = k_jitter != k_off ? interleaved_offset(pixel) : 0.5;
   vec3 radiance = k_sun != 0u ? sun_airlight(ray, offset) : lamp_airlight(ray, offset);

@@ -2,8 +2,9 @@
 // A capsule inserted later lies wholly within the node's distance δ of the pivot's arc, wholly beyond, or both, and goes to that child.
 //
 // δ is stored nowhere: it is that of the whole scene at the root and half as much after each step to what is near, so that who
-// goes down the tree carries it. (The tree that the CPU makes, surface_shadows/median_tree.h, has medians, and brings them.) Node k is that of cluster k − 1 and node 0 stands before the root: the addresses follow from the
-// clusters' numbers, nothing is allocated, and a tree of n clusters takes 64 n + 64 bytes.
+// goes down the tree carries it. (The tree that the CPU makes, surface_shadows/median_tree.h, has medians, and brings them.)
+// Node k is that of cluster k − 1 and node 0 stands before the root: the addresses follow from the clusters' numbers,
+// nothing is allocated, and a tree of n clusters takes 64 n + 64 bytes.
 //
 // What must not be lost: distances are rounded, so a capsule is near, or beyond, only where the distance is clear of δ by `slack`,
 // at least the errors of the insertion's distances and of a query's together; else it counts as both. So a point asks one of the two.

@@ -109,7 +109,8 @@ Children children_of(Query query, uint node, uint near_steps, bool asks) {
 // nothing is near any more. (Where it is stored there may be more, and no one asks.)
 const uint k_node_bits = 26u;
 
-// Visits all nodes that may hide the point, until nothing is left of the light. False where the stack did not hold what was left: then some were not.
+// Visits all nodes that may hide the point, until nothing is left of the light. False where the stack did not hold what was
+// left: then some were not.
 bool walk_with_stack(Query query, uint root) {
   uint stack[k_stack];
   uint height = 0u;

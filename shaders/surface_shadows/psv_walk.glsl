@@ -65,7 +65,8 @@ uvec3 children_of(Query query, uint node, bool asks) {
                may_be_intersected ? first_node_of(link[k_intersected]) : k_none);
 }
 
-// Visits all nodes that may hide the point, until nothing is left of the light. False where the stack did not hold what was left: then some were not.
+// Visits all nodes that may hide the point, until nothing is left of the light. False where the stack did not hold what was
+// left: then some were not.
 bool walk_with_stack(Query query, uint root) {
   uint stack[k_stack];  // nodes that are left
   uint height_of_stack = 0u;
