@@ -506,6 +506,10 @@ TEST_F(Driver, ImageOverTheLimitNamesIt) {
   expect_one_line_error(result, 4);
   EXPECT_THAT(result.err, HasSubstr("GL_MAX_TEXTURE_SIZE"));
   expect_one_line_error(airlight({"compare", "cornell", "-o", "out", "--size", "1000000x8"}), 4);
+  // More triangles than turns after which a driver ends a loop.
+  expect_one_line_error(airlight({"compare", "spheres", "-o", "out", "--size", "8x8", "--volume", "none",
+                                  "--surface", "brute"}),
+                        4);
 }
 
 TEST_F(Driver, GridOverTheLimitNamesIt) {
