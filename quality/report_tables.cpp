@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "quality/results.h"
+#include "scene/path.h"
 #include "scene/view_fields.h"
 
 namespace airlight::quality {
@@ -323,7 +324,8 @@ std::string motions(const JoinedRuns& joined) {
     const Json& run = joined.runs[i].json;
     if (!run.contains("path")) continue;
     const Json of_run = run["path"].value("frames", Json::array());
-    for (const char* motion : {"all", "lights", "camera", "nothing"}) {
+    for (const scene::Motion of_rows : scene::k_motions) {
+      const std::string motion(scene::motion_name(of_rows));
       double count = 0.0, maps = 0.0, volumes = 0.0, ms = 0.0;
       for (std::size_t f = 0; f < std::min(frames.size(), of_run.size()); ++f) {
         if (frames[f].value("moves", "") != motion) continue;

@@ -312,8 +312,7 @@ PathSpreads path_spreads(const Run& run) {
 
 std::vector<MotionShare> shares_of_motion(const ComparedPath& path, const Run& run) {
   std::vector<MotionShare> shares;
-  for (const scene::Motion motion : {scene::Motion::objects, scene::Motion::all, scene::Motion::lights,
-                                     scene::Motion::camera, scene::Motion::nothing}) {
+  for (const scene::Motion motion : scene::k_motions) {
     MotionShare share{.motion = motion};
     for (std::size_t i = 0; i < run.path.size(); ++i) {
       if (path.frames[i].motion != motion) continue;

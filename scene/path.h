@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -67,6 +68,10 @@ enum class Motion {
   all,      ///< both, and no object
   objects,  ///< and whatever else
 };
+
+/// The most restless first, the order of tables.
+inline constexpr std::array k_motions = {Motion::objects, Motion::all, Motion::lights, Motion::camera,
+                                         Motion::nothing};
 
 /// "nothing", "camera", "lights", "all" or "objects".
 std::string_view motion_name(Motion motion);

@@ -173,6 +173,20 @@ TEST_F(Report, TellsTimeAndErrorAlongAPath) {
   EXPECT_THAT(html, HasSubstr("Along a path no images of radiance are kept."));
 }
 
+TEST_F(Report, TellsApartWhatMovesAlongAPath) {
+  Comparison comparison = one_run();
+  comparison.path.emplace().seconds = 1.0;
+  quality::Run& run = comparison.runs[0];
+  for (const scene::Motion motion : scene::k_motions) {
+    comparison.path->frames.emplace_back().motion = motion;
+    run.path.emplace_back();
+  }
+  const std::string html = page(comparison);
+  for (const scene::Motion motion : scene::k_motions)
+    EXPECT_THAT(html,
+                HasSubstr(fmt::format("{}</td><td data-value=\"1\">1</td>", scene::motion_name(motion))));
+}
+
 TEST_F(Report, MarksTheFront) {
   Comparison comparison = one_run();
   comparison.runs[0].errors.same_surface.rrmse = 0.02;
