@@ -69,12 +69,14 @@ struct Sums {
   double squared_radiance = 0.0;
   std::uint64_t shadows = 0;
   std::uint64_t lit_runs = 0;
+  std::uint64_t pixels = 0;
 
   void operator+=(const Sums& other) {
     radiance += other.radiance;
     squared_radiance += other.squared_radiance;
     shadows += other.shadows;
     lit_runs += other.lit_runs;
+    pixels += other.pixels;
   }
 };
 
@@ -162,6 +164,7 @@ class Reference::TileIntegrator {
     sums_.squared_radiance += glm::dot(radiance, radiance);
     sums_.shadows += shadows_.count();
     sums_.lit_runs += shadows_.lit_runs().size();
+    ++sums_.pixels;
   }
 
   const State& state_;
@@ -177,52 +180,42 @@ class Reference::TileIntegrator {
 };
 
 AirlightImage Reference::exact(int refinement, const Progress& progress) const {
-  return state_->sun ? exact_along<SunRay>(refinement, progress) : exact_along<ViewRay>(refinement, progress);
+  const glm::ivec2 count = (state_->view.size + k_tile - 1) / k_tile;
+  std::vector<glm::ivec2> tiles;
+  for (int row = 0; row < count.y; ++row)
+    for (int column = 0; column < count.x; ++column) tiles.emplace_back(column, row);
+  return exact_in(tiles, refinement, progress);
 }
 
-AirlightImage Reference::exact_in(std::span<const glm::ivec2> tiles) const {
-  return state_->sun ? exact_tiles<SunRay>(tiles) : exact_tiles<ViewRay>(tiles);
-}
-
-template <class Ray>
-AirlightImage Reference::exact_tiles(std::span<const glm::ivec2> tiles) const {
-  const State& state = *state_;
-  AirlightImage image;
-  image.radiance.resize(state.pixels());
-  const Hierarchy hierarchy(state.triangles, state.origin);
-  const auto make_worker = [&] {
-    return [&, integrator = TileIntegrator<Ray>(state, hierarchy, 1, image)](int i) mutable {
-      const glm::ivec2 from = k_tile * tiles[static_cast<std::size_t>(i)];
-      integrator.integrate({from, glm::min(from + k_tile, state.view.size)});
-    };
-  };
-  scene::parallel(static_cast<int>(tiles.size()), make_worker, {});
-  return image;
+AirlightImage Reference::exact_in(std::span<const glm::ivec2> tiles, int refinement,
+                                  const Progress& progress) const {
+  return state_->sun ? exact_along<SunRay>(tiles, refinement, progress)
+                     : exact_along<ViewRay>(tiles, refinement, progress);
 }
 
 template <class Ray>
-AirlightImage Reference::exact_along(int refinement, const Progress& progress) const {
+AirlightImage Reference::exact_along(std::span<const glm::ivec2> tiles, int refinement,
+                                     const Progress& progress) const {
   const State& state = *state_;
   AirlightImage image;
   image.radiance.resize(state.pixels());
-  const glm::ivec2 tiles = (state.view.size + k_tile - 1) / k_tile;
-  std::vector<Sums> sums(static_cast<std::size_t>(tiles.x) * static_cast<std::size_t>(tiles.y));
+  std::vector<Sums> sums(tiles.size());
   const auto start = std::chrono::steady_clock::now();
   const Hierarchy hierarchy(state.triangles, state.origin);
 
   const auto make_worker = [&] {
-    return [&, integrator = TileIntegrator<Ray>(state, hierarchy, refinement, image)](int tile) mutable {
-      const glm::ivec2 from = k_tile * glm::ivec2(tile % tiles.x, tile / tiles.x);
-      sums[static_cast<std::size_t>(tile)] =
-          integrator.integrate({from, glm::min(from + k_tile, state.view.size)});
+    return [&, integrator = TileIntegrator<Ray>(state, hierarchy, refinement, image)](int i) mutable {
+      const auto tile = static_cast<std::size_t>(i);
+      const glm::ivec2 from = k_tile * tiles[tile];
+      sums[tile] = integrator.integrate({from, glm::min(from + k_tile, state.view.size)});
     };
   };
-  scene::parallel(tiles.x * tiles.y, make_worker, progress);
+  scene::parallel(static_cast<int>(tiles.size()), make_worker, progress);
 
   image.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   Sums total;
   for (const Sums& of_tile : sums) total += of_tile;
-  const auto pixels = static_cast<double>(state.pixels());
+  const auto pixels = static_cast<double>(total.pixels);
   if (total.radiance > 0.0)
     image.bound = (k_rounding + (state.sun ? 0.0 : FogQuadrature::k_error)) *
                   std::sqrt(total.squared_radiance / (3.0 * pixels)) / (total.radiance / (3.0 * pixels));

@@ -76,8 +76,9 @@ class Reference {
   AirlightImage exact(int refinement = 1, const Progress& progress = {}) const;
 
   /// The same of some tiles of k_tile² pixels, those at the image's right and lower sides cut, by their
-  /// columns and rows; 0 elsewhere, and no figures.
-  AirlightImage exact_in(std::span<const glm::ivec2> tiles) const;
+  /// columns and rows, each once: figures are of their pixels, radiance elsewhere 0.
+  AirlightImage exact_in(std::span<const glm::ivec2> tiles, int refinement = 1,
+                         const Progress& progress = {}) const;
   static constexpr int k_tile = 8;
 
  private:
@@ -85,9 +86,8 @@ class Reference {
   template <class Ray>
   class TileIntegrator;
   template <class Ray>
-  AirlightImage exact_along(int refinement, const Progress& progress) const;
-  template <class Ray>
-  AirlightImage exact_tiles(std::span<const glm::ivec2> tiles) const;
+  AirlightImage exact_along(std::span<const glm::ivec2> tiles, int refinement,
+                            const Progress& progress) const;
   template <class Ray>
   AirlightImage sampled_along(int samples, const Progress& progress) const;
   AirlightImage march_to_sun(int samples, RayMode mode, const Progress& progress) const;
