@@ -81,12 +81,10 @@ SceneBuffers::SceneBuffers(const gpu::Context& context, const scene::Geometry& g
     cut_out_positions_ = upload(positions);
   }
   if (scene::transmits(geometry)) {
-    std::vector<glm::uvec4> attenuations;
+    const std::vector<scene::Attenuation> of_triangle = scene::attenuations_of(geometry);
+    std::vector<scene::Attenuation> attenuations;
     attenuations.reserve(triangle_count());
-    for (const std::uint32_t triangle : clusters_.order) {
-      const scene::Attenuation attenuation = scene::attenuation_of(geometry, triangle);
-      attenuations.emplace_back(attenuation.of_channel, attenuation.grows_by_incidence);
-    }
+    for (const std::uint32_t triangle : clusters_.order) attenuations.push_back(of_triangle[triangle]);
     attenuations_ = upload(attenuations);
     attenuation_texels_ = {context.limits(), attenuations_, gpu::Format::rgba32ui, "the model's triangles"};
   }

@@ -59,14 +59,7 @@ std::string hash_of_geometry(const scene::Geometry& geometry) {
       hash.add(std::vector{material.cut_out->least_alpha});
     }
   }
-  if (scene::transmits(geometry)) {
-    std::vector<glm::uvec4> attenuations;
-    for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i) {
-      const scene::Attenuation attenuation = scene::attenuation_of(geometry, i);
-      attenuations.emplace_back(attenuation.of_channel, attenuation.grows_by_incidence);
-    }
-    hash.add(attenuations);
-  }
+  hash.add(scene::attenuations_of(geometry));
   return hash.text();
 }
 

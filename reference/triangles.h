@@ -59,11 +59,10 @@ struct Triangles {
   std::size_t count() const { return indices.size(); }
 
   explicit Triangles(const scene::Geometry& geometry)
-      : positions(geometry.positions), indices(geometry.triangles), cut_outs(geometry) {
-    if (!scene::transmits(geometry)) return;
-    attenuations.reserve(count());
-    for (std::uint32_t i = 0; i < count(); ++i) attenuations.push_back(scene::attenuation_of(geometry, i));
-  }
+      : positions(geometry.positions),
+        indices(geometry.triangles),
+        cut_outs(geometry),
+        attenuations(scene::attenuations_of(geometry)) {}
   Triangles() = default;
 
   /// @param origin world space [m]

@@ -91,4 +91,13 @@ Attenuation attenuation_of(const Geometry& geometry, std::uint32_t triangle) {
   return {};
 }
 
+std::vector<Attenuation> attenuations_of(const Geometry& geometry) {
+  std::vector<Attenuation> attenuations;
+  if (!transmits(geometry)) return attenuations;
+  attenuations.reserve(geometry.triangles.size());
+  for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i)
+    attenuations.push_back(attenuation_of(geometry, i));
+  return attenuations;
+}
+
 }  // namespace airlight::scene
