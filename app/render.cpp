@@ -121,12 +121,16 @@ void render(const Options& options) {
   auto surfaces = parse_surfaces(options);
   require_read(options, volumes, surfaces);
   int shadow_map = shadow_map_size(options);
-  if (options.get("volume") && volumes.size() != 1)
-    throw Error(ExitCode::usage, "--volume", "render takes one method", "compare takes several");
-  if (surfaces.size() != 1)
-    throw Error(ExitCode::usage, "--surface", "render takes one method", "compare takes several");
+  const auto require_one = [&] {
+    if (volumes.size() != 1)
+      throw Error(ExitCode::usage, "--volume", "render takes one method", "compare takes several");
+    if (surfaces.size() != 1)
+      throw Error(ExitCode::usage, "--surface", "render takes one method", "compare takes several");
+  };
+  require_one();
   Subject subject = make_subject(options);
   take_usual_methods(options, subject, volumes, surfaces, shadow_map);
+  require_one();
   fit_to_view(volumes, surfaces, subject);
   const quality::VolumeChoice& volume = volumes[0];
   const quality::SurfaceChoice& surface = surfaces[0];

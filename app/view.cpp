@@ -18,23 +18,27 @@ void view(const Options& options) {
   auto surfaces = parse_surfaces(options);
   require_read(options, volumes, surfaces);
   int shadow_map = shadow_map_size(options);
-  if (volumes.size() != 1 || surfaces.size() != 1)
-    throw scene::Error(scene::ExitCode::usage, volumes.size() != 1 ? "--volume" : "--surface",
-                       "view begins with one method", "another one can be set beside it in the window");
   const auto require_gpu = [](const auto& choice, const char* option) {
     if (!choice.method->traits.runs_on_gpu)
       throw scene::Error(scene::ExitCode::usage, option,
                          fmt::format("{} is too slow to fly by", choice.method->name),
                          "the window can show the truth beside another method");
   };
-  require_gpu(volumes[0], "--volume");
-  require_gpu(surfaces[0], "--surface");
+  const auto require_shown = [&] {
+    if (volumes.size() != 1 || surfaces.size() != 1)
+      throw scene::Error(scene::ExitCode::usage, volumes.size() != 1 ? "--volume" : "--surface",
+                         "view begins with one method", "another one can be set beside it in the window");
+    require_gpu(volumes[0], "--volume");
+    require_gpu(surfaces[0], "--surface");
+  };
+  require_shown();
   Subject subject = make_subject(options);
   if (subject.path && subject.path->moves_objects())
     throw scene::Error(scene::ExitCode::usage, "--path",
                        "it moves nodes, and the window shows a model at rest", "render or compare it");
   if (!options.get("size")) subject.view.size = {1280, 720};
   take_usual_methods(options, subject, volumes, surfaces, shadow_map);
+  require_shown();
   viewer::Shown shown{subject.view, volumes[0],       surfaces[0],
                       shadow_map,   subject.exposure, subject.scene.tone_map};
   fit_to_view(volumes, surfaces, subject);

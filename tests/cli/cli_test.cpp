@@ -937,6 +937,13 @@ TEST_F(ShotFile, ErrorNamesFileAndLine) {
   expect_one_line_error(airlight({"render", "all.toml", "-o", "x.exr", "--triangles", "5000"}), 2);
 }
 
+TEST_F(ShotFile, OfSeveralMethodsIsNotRendered) {
+  std::ofstream(file("several.toml")) << "scene = 'cornell'\n[methods]\nvolume = 'vsv,march'\n";
+  const Result result = airlight({"render", "several.toml", "-o", "x.exr"});
+  expect_one_line_error(result, 2);
+  EXPECT_THAT(result.err, HasSubstr("render takes one method"));
+}
+
 TEST_F(ShotFile, OfTheProjectIsRendered) {
   for (const auto& entry : fs::directory_iterator(AIRLIGHT_ASSETS)) {
     if (entry.path().extension() != ".toml") continue;
