@@ -1,15 +1,44 @@
 #include "app/settings.h"
 
 #include <optional>
+#include <string>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "quality/axes.h"
 #include "scene/error.h"
+#include "scene/numbers.h"
 
 namespace airlight::app {
 
 using scene::Error;
 using scene::ExitCode;
+
+namespace {
+
+std::string expanded(const char* option, std::string_view list) {
+  return fmt::format("{}", fmt::join(quality::expand_braces(option, list), ","));
+}
+
+}  // namespace
+
+std::vector<quality::VolumeChoice> expanded_volumes(std::string_view list,
+                                                    std::span<const quality::CommonOption> common) {
+  return quality::parse_volumes(expanded("--volume", list), common);
+}
+
+std::vector<quality::SurfaceChoice> expanded_surfaces(std::string_view list,
+                                                      std::span<const quality::CommonOption> common) {
+  return quality::parse_surfaces(expanded("--surface", list), common);
+}
+
+std::vector<int> expanded_shadow_maps(std::string_view list) {
+  std::vector<int> sizes;
+  for (const std::string& word : quality::expand_braces("--shadow-map", list))
+    sizes.push_back(scene::parse_count("--shadow-map", word));
+  return sizes;
+}
 
 std::vector<quality::VolumeChoice> every_volume(const Options& options, const Subject& subject,
                                                 std::size_t most, std::size_t& refused) {

@@ -50,16 +50,10 @@ void sweep(const Options& options) {
   const quality::Axes axes = axes_of(options);
   const std::vector<quality::CommonOption> common = common_method_options(options);
   std::vector<quality::VolumeChoice> volumes;
-  if (axes.volumes)
-    volumes = quality::parse_volumes(
-        fmt::format("{}", fmt::join(quality::expand_braces("--volume", *axes.volumes), ",")), common);
-  std::vector<quality::SurfaceChoice> surfaces = quality::parse_surfaces(
-      fmt::format("{}",
-                  fmt::join(quality::expand_braces("--surface", axes.surfaces.value_or("shadow-map")), ",")),
-      common);
-  std::vector<int> shadow_maps;
-  for (const std::string& word : quality::expand_braces("--shadow-map", axes.shadow_maps.value_or("2048")))
-    shadow_maps.push_back(scene::parse_count("--shadow-map", word));
+  if (axes.volumes) volumes = expanded_volumes(*axes.volumes, common);
+  std::vector<quality::SurfaceChoice> surfaces =
+      expanded_surfaces(axes.surfaces.value_or("shadow-map"), common);
+  const std::vector<int> shadow_maps = expanded_shadow_maps(axes.shadow_maps.value_or("2048"));
   const quality::Shard shard = quality::parse_shard("--shard", options.get("shard").value_or("1/1"));
   const int rounds = scene::parse_count("--frames", options.get("frames").value_or("9"));
   const std::vector<quality::VolumeChoice> baselines =

@@ -10,7 +10,6 @@
 #include "app/memory.h"
 #include "app/output.h"
 #include "app/settings.h"
-#include "quality/axes.h"
 #include "quality/results.h"
 #include "scene/numbers.h"
 #include "scene/transmission.h"
@@ -120,15 +119,11 @@ void tune(const Options& options) {
   const quality::TuneGoal goal = goal_of(options);
   const std::vector<quality::CommonOption> common = common_method_options(options);
   std::vector<quality::VolumeChoice> volumes;
-  if (const auto list = options.get("volume"))
-    volumes = quality::parse_volumes(
-        fmt::format("{}", fmt::join(quality::expand_braces("--volume", *list), ",")), common);
+  if (const auto list = options.get("volume")) volumes = expanded_volumes(*list, common);
   std::vector<quality::SurfaceChoice> surfaces = parse_surfaces(options);
   if (surfaces.size() != 1) throw Error(ExitCode::usage, "--surface", "it names several methods", "name one");
-  std::vector<int> shadow_maps;
-  for (const std::string& word :
-       quality::expand_braces("--shadow-map", options.get("shadow-map").value_or("1024,2048,4096")))
-    shadow_maps.push_back(scene::parse_count("--shadow-map", word));
+  const std::vector<int> shadow_maps =
+      expanded_shadow_maps(options.get("shadow-map").value_or("1024,2048,4096"));
   const int rounds = scene::parse_count("--frames", options.get("frames").value_or("7"));
   const auto json = options.get("json");
   if (json && *json != "-") require_writable(*json);
