@@ -145,7 +145,8 @@ void tune(const Options& options) {
                   .bytes_per_pixel = bytes_of_compare(subject) + shadow_maps.size() * k_bytes_of_render,
                   .shadow_map = *std::max_element(shadow_maps.begin(), shadow_maps.end()),
                   .triangles = subject.scene.geometry.triangles.size(),
-                  .looks = bytes_of_looks(subject.scene.geometry)});
+                  .looks = bytes_of_looks(subject.scene.geometry),
+                  .scenes = subject.scenes() * static_cast<int>(shadow_maps.size())});
 
   const quality::Subject tuned_subject{"", options.scene, subject.scene, subject.views(),
                                        subject.path.has_value()};
