@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
-#include <set>
 #include <utility>
 
 #include "quality/metrics.h"
+#include "reference/reference.h"
 
 namespace airlight::quality {
 namespace {
@@ -59,29 +60,25 @@ std::vector<DrawnTile> TileDraw::drawn(std::size_t count, std::uint32_t seed) co
   return tiles;
 }
 
-TruthTracer::TruthTracer(const scene::Geometry& geometry, const scene::View& view) : view_(view) {
-  if (!view.pose.is_at_rest()) posed_ = scene::posed(geometry, view.pose);
-  for (std::size_t light = 0; light < view.lights.size(); ++light)
-    of_light_.emplace_back(posed_ ? *posed_ : geometry, view, light);
-  distance_ = of_light_[0].surfaces().distance;
-}
-
-std::vector<glm::vec3> TruthTracer::airlight(std::span<const glm::ivec2> tiles) const {
-  std::vector<glm::vec3> sum(distance_.size(), glm::vec3(0.0f));
-  for (const reference::Reference& reference : of_light_) {
-    const std::vector<glm::vec3> radiance = reference.exact_in(tiles).radiance;
-    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += radiance[i];
-  }
-  return sum;
-}
-
-TruthSample::TruthSample(const TruthTracer& tracer, std::vector<DrawnTile> tiles)
-    : size_(tracer.view().size), tiles_(std::move(tiles)), distance_(tracer.distance()) {
+TruthOfTiles::TruthOfTiles(const scene::Geometry& geometry, const scene::View& view,
+                           std::vector<DrawnTile> tiles)
+    : size_(view.size), airlight_(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y)) {
   std::vector<glm::ivec2> distinct;
-  for (const DrawnTile& drawn : tiles_)
+  std::sort(tiles.begin(), tiles.end(), [](const DrawnTile& a, const DrawnTile& b) {
+    return std::pair(a.tile.y, a.tile.x) < std::pair(b.tile.y, b.tile.x);
+  });
+  for (const DrawnTile& drawn : tiles)
     if (distinct.empty() || distinct.back() != drawn.tile) distinct.push_back(drawn.tile);
-  airlight_ = tracer.airlight(distinct);
   for (const glm::ivec2& tile : distinct) for_each_pixel(size_, tile, [&](std::size_t) { ++pixels_; });
+
+  std::optional<scene::Geometry> posed;
+  if (!view.pose.is_at_rest()) posed = scene::posed(geometry, view.pose);
+  for (std::size_t light = 0; light < view.lights.size(); ++light) {
+    const reference::Reference reference(posed ? *posed : geometry, view, light);
+    if (light == 0) distance_ = reference.surfaces().distance;
+    const std::vector<glm::vec3> radiance = reference.exact_in(distinct).radiance;
+    for (std::size_t i = 0; i < airlight_.size(); ++i) airlight_[i] += radiance[i];
+  }
 }
 
 double ErrorOfTiles::Sums::rrmse() const {
@@ -89,16 +86,17 @@ double ErrorOfTiles::Sums::rrmse() const {
   return std::sqrt(squares * channels) / truth;
 }
 
-void ErrorOfTiles::add(const TruthSample& truth, const frame::FrameImages& images) {
+void ErrorOfTiles::add(const TruthOfTiles& truth, std::span<const DrawnTile> drawn,
+                       const frame::FrameImages& images) {
   std::vector<Sums>& view = views_.emplace_back();
-  for (const DrawnTile& drawn : truth.tiles_) {
+  for (const auto& [tile, weight] : drawn) {
     Sums& sums = view.emplace_back();
-    for_each_pixel(truth.size_, drawn.tile, [&](std::size_t i) {
-      if (!is_same_surface(images.distance[i], truth.distance_[i])) return;
-      const glm::dvec3 x(images.airlight[i]), r(truth.airlight_[i]);
-      sums.squares += drawn.weight * glm::dot(x - r, x - r);
-      sums.truth += drawn.weight * (r.r + r.g + r.b);
-      sums.channels += 3.0 * drawn.weight;
+    for_each_pixel(truth.size(), tile, [&, weight = weight](std::size_t i) {
+      if (!is_same_surface(images.distance[i], truth.distance()[i])) return;
+      const glm::dvec3 x(images.airlight[i]), r(truth.airlight()[i]);
+      sums.squares += weight * glm::dot(x - r, x - r);
+      sums.truth += weight * (r.r + r.g + r.b);
+      sums.channels += 3.0 * weight;
     });
   }
 }

@@ -2,14 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include <glm/glm.hpp>
 
 #include "frame/frame.h"
-#include "reference/reference.h"
 #include "scene/scene.h"
 
 namespace airlight::quality {
@@ -38,46 +36,32 @@ class TileDraw {
   std::vector<double> probability_;
 };
 
-/// Traces the truth of parts of a view, all lights together.
-class TruthTracer {
+/// The truth of tiles of a view, all lights together.
+class TruthOfTiles {
  public:
-  /// @param geometry, view kept by reference
-  TruthTracer(const scene::Geometry& geometry, const scene::View& view);
+  /// @param tiles may name a tile several times: it is traced once
+  TruthOfTiles(const scene::Geometry& geometry, const scene::View& view, std::vector<DrawnTile> tiles);
 
-  const scene::View& view() const { return view_; }
-  /// Of all pixels, along the view ray [m]; 0 where it hits nothing.
-  const std::vector<float>& distance() const { return distance_; }
-  /// Row 0 at the top; 0 outside of the tiles.
-  std::vector<glm::vec3> airlight(std::span<const glm::ivec2> tiles) const;
-
- private:
-  const scene::View& view_;
-  std::optional<scene::Geometry> posed_;
-  std::vector<reference::Reference> of_light_;
-  std::vector<float> distance_;
-};
-
-/// The truth of drawn tiles.
-class TruthSample {
- public:
-  TruthSample(const TruthTracer& tracer, std::vector<DrawnTile> tiles);
-
+  glm::ivec2 size() const { return size_; }
   /// Whose truth was traced.
   std::size_t pixels() const { return pixels_; }
+  /// Of all pixels, along the view ray [m]; 0 where it hits nothing. Row 0 at the top, as below.
+  const std::vector<float>& distance() const { return distance_; }
+  /// 0 outside of the tiles.
+  const std::vector<glm::vec3>& airlight() const { return airlight_; }
 
  private:
-  friend class ErrorOfTiles;
   glm::ivec2 size_;
-  std::vector<DrawnTile> tiles_;
-  std::vector<glm::vec3> airlight_;
-  std::vector<float> distance_;
   std::size_t pixels_ = 0;
+  std::vector<float> distance_;
+  std::vector<glm::vec3> airlight_;
 };
 
 /// The same-surface rrmse of images, estimated from drawn tiles; of several views the mean.
 class ErrorOfTiles {
  public:
-  void add(const TruthSample& truth, const frame::FrameImages& images);
+  /// Of one more view. @param drawn are tiles of the truth
+  void add(const TruthOfTiles& truth, std::span<const DrawnTile> drawn, const frame::FrameImages& images);
 
   /// NaN where the truth is dark.
   double rrmse() const;
@@ -89,13 +73,12 @@ class ErrorOfTiles {
  private:
   /// Weighted sums over a tile's pixels that see the same surface.
   struct Sums {
-    double squares = 0.0, truth = 0.0;
+    double squares = 0.0, truth = 0.0, channels = 0.0;
     void operator+=(const Sums& other) {
       squares += other.squares;
       truth += other.truth;
       channels += other.channels;
     }
-    double channels = 0.0;
     double rrmse() const;
   };
   std::vector<std::vector<Sums>> views_;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <numeric>
 #include <random>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,7 +15,6 @@
 #include "quality/measure.h"
 #include "quality/statistics.h"
 #include "quality/truth_sample.h"
-#include "reference/reference.h"
 
 namespace airlight::quality {
 namespace {
@@ -45,8 +45,7 @@ class Tuner {
     tuned.views = views_.size();
     double traced = 0.0, all = 0.0;
     for (const OfView& of_view : views_) {
-      traced += static_cast<double>((of_view.chosen ? of_view.chosen->pixels() : 0) +
-                                    (of_view.judged ? of_view.judged->pixels() : 0));
+      traced += static_cast<double>(of_view.truth.pixels());
       all += static_cast<double>(of_view.view->size.x) * of_view.view->size.y;
     }
     tuned.truth_share = traced / all;
@@ -58,7 +57,8 @@ class Tuner {
  private:
   struct OfView {
     const scene::View* view;
-    std::optional<TruthSample> chosen, judged;  ///< tiles to choose by, tiles to judge by
+    std::vector<DrawnTile> chosen, judged;  ///< to choose by, to judge by; of a path one of them is empty
+    TruthOfTiles truth;
   };
   struct Candidate {
     TunedSetting tuned;
@@ -70,8 +70,9 @@ class Tuner {
     const int size = setting.shadow_map.value_or(1);
     std::unique_ptr<Measurer>& measurer = measurers_[size];
     if (!measurer)
-      measurer = std::make_unique<Measurer>(context_, request_.subject.scene.geometry, *views_[0].view, size,
-                                            Progress(), std::filesystem::path());
+      measurer =
+          std::make_unique<Measurer>(context_, request_.subject.scene.geometry, request_.subject.views[0],
+                                     size, Progress(), std::filesystem::path());
     return *measurer;
   }
 
@@ -82,24 +83,27 @@ class Tuner {
   void choose_views() {
     const auto& views = request_.subject.views;
     const std::vector<std::size_t> numbers = looked_at(views.size());
-    for (const std::size_t number : numbers) views_.push_back({&views[number], {}, {}});
     // Two ways to show each view, as different as the settings are, tell where errors may lie.
     const Setting &first = request_.settings.front(), &last = request_.settings.back();
-    for (std::size_t i = 0; i < views_.size(); ++i) {
-      OfView& of_view = views_[i];
-      tell("truth", static_cast<double>(i) / static_cast<double>(views_.size()));
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      const scene::View& view = views[numbers[i]];
+      tell("truth", static_cast<double>(i) / static_cast<double>(numbers.size()));
       const auto image = [&](const Setting& setting) {
         Measurer& measurer = measurer_of(setting);
-        measurer.look_at(*of_view.view);
+        measurer.look_at(view);
         ++frames_;
         return measurer.render(setting.volume, setting.surface).airlight;
       };
-      const TileDraw draw(of_view.view->size, image(first), image(last));
-      const bool is_alone = views_.size() == 1;
+      const TileDraw draw(view.size, image(first), image(last));
+      const bool is_alone = numbers.size() == 1;
       const std::size_t tiles = std::max<std::size_t>(24, draw.tiles() / 100);
-      const TruthTracer tracer(request_.subject.scene.geometry, *of_view.view);
-      if (is_alone || i % 2 == 0) of_view.chosen.emplace(tracer, draw.drawn(tiles, 1));
-      if (is_alone || i % 2 == 1) of_view.judged.emplace(tracer, draw.drawn(tiles, 2));
+      std::vector<DrawnTile> chosen, judged;
+      if (is_alone || i % 2 == 0) chosen = draw.drawn(tiles, 1);
+      if (is_alone || i % 2 == 1) judged = draw.drawn(tiles, 2);
+      std::vector<DrawnTile> both = chosen;
+      both.insert(both.end(), judged.begin(), judged.end());
+      views_.push_back({&view, std::move(chosen), std::move(judged),
+                        TruthOfTiles(request_.subject.scene.geometry, view, std::move(both))});
     }
   }
 
@@ -115,8 +119,8 @@ class Tuner {
       const frame::FrameImages images = measurer.images();
       candidate.times.push_back(measurer.play(pair, view)[0].ms);
       frames_ += 2;
-      if (of_view.chosen) on_chosen.add(*of_view.chosen, images);
-      if (of_view.judged) candidate.on_judged.add(*of_view.judged, images);
+      if (!of_view.chosen.empty()) on_chosen.add(of_view.truth, of_view.chosen, images);
+      if (!of_view.judged.empty()) candidate.on_judged.add(of_view.truth, of_view.judged, images);
     }
     candidate.tuned.bytes = measurer.shared_bytes() + pair.bytes();
     candidate.tuned.chosen_error = on_chosen.rrmse();
@@ -200,28 +204,40 @@ class Tuner {
   }
 
   /// In rounds, each in another order, so that a disturbance falls on all alike.
-  void time(std::vector<Candidate*> finalists) {
-    if (finalists.size() < 2 && by_time()) return;
+  void time(std::span<Candidate* const> candidates) {
+    if (candidates.size() < 2 && by_time()) return;
     std::mt19937 random(1);
-    for (Candidate* candidate : finalists) candidate->times.clear();
+    struct Finalist {
+      Candidate* candidate;
+      Measurer& measurer;
+      Measurer::Pair pair;
+    };
+    std::vector<Finalist> finalists;
+    for (Candidate* candidate : candidates) {
+      candidate->times.clear();
+      const Setting& setting = candidate->tuned.setting;
+      Measurer& measurer = measurer_of(setting);
+      finalists.push_back({candidate, measurer, measurer.make(setting.volume, setting.surface)});
+    }
+    std::vector<std::size_t> order(finalists.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
     for (int round = 0; round < request_.rounds; ++round) {
       tell(fmt::format("round {} of {}", round + 1, request_.rounds),
            static_cast<double>(round) / request_.rounds);
-      std::shuffle(finalists.begin(), finalists.end(), random);
-      for (Candidate* candidate : finalists) {
-        const Setting& setting = candidate->tuned.setting;
-        Measurer& measurer = measurer_of(setting);
-        const Measurer::Pair pair = measurer.make(setting.volume, setting.surface);
+      std::shuffle(order.begin(), order.end(), random);
+      for (const std::size_t i : order) {
+        const auto& [candidate, measurer, pair] = finalists[i];
         double sum = 0.0;
         for (const OfView& of_view : views_) {
-          measurer.play(pair, {of_view.view, 1});  // what is made once a scene
+          measurer.play(pair,
+                        {of_view.view, 1});  // what is made once a scene, and what others left in caches
           sum += measurer.play(pair, {of_view.view, 1})[0].ms;
           frames_ += 2;
         }
         candidate->times.push_back(sum / static_cast<double>(views_.size()));
       }
     }
-    for (Candidate* candidate : finalists) candidate->tuned.frame_ms = median(candidate->times);
+    for (Candidate* candidate : candidates) candidate->tuned.frame_ms = median(candidate->times);
   }
 
   /// Each knob of the best to the next values that are worth sweeping.

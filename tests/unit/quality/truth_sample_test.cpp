@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "quality/metrics.h"
+#include "reference/reference.h"
 #include "support/scenes.h"
 
 namespace airlight::quality {
@@ -35,14 +36,17 @@ TEST(TileDraw, DrawsEachTileAsOftenAsItsWeightSays) {
 
 class ErrorOfCornell : public testing::Test {
  protected:
+  static std::vector<DrawnTile> every_tile() {
+    std::vector<DrawnTile> tiles;
+    for (int y = 0; y < 6; ++y)
+      for (int x = 0; x < 6; ++x) tiles.push_back({{x, y}, 1.0});
+    return tiles;
+  }
+
   ErrorOfCornell() {
     images_.size = view_.size;
-    images_.distance = tracer_.distance();
-    std::vector<glm::ivec2> all;
-    for (int y = 0; y < 6; ++y)
-      for (int x = 0; x < 6; ++x) all.emplace_back(x, y);
-    truth_ = tracer_.airlight(all);
-    images_.airlight = truth_;
+    images_.distance = truth_.distance();
+    images_.airlight = truth_.airlight();
     // Wrong in one place, and where the surface is another.
     for (int y = 0; y < 12; ++y)
       for (int x = 0; x < 48; ++x)
@@ -52,41 +56,41 @@ class ErrorOfCornell : public testing::Test {
   }
 
   double whole() const {
-    return same_surface_error(channels_of(images_.airlight), images_.distance, channels_of(truth_),
-                              tracer_.distance())
+    return same_surface_error(channels_of(images_.airlight), images_.distance, channels_of(truth_.airlight()),
+                              truth_.distance())
         .rrmse;
   }
 
   const scene::Scene& scene_ = tests::builtin("cornell");
   scene::View view_ = tests::view_of(scene_, {48, 48});
-  TruthTracer tracer_{scene_.geometry, view_};
-  std::vector<glm::vec3> truth_;
+  TruthOfTiles truth_{scene_.geometry, view_, every_tile()};
   frame::FrameImages images_;
 };
 
 TEST_F(ErrorOfCornell, TruthIsThatOfTheWholeImage) {
-  EXPECT_EQ(truth_, reference::Reference(scene_.geometry, view_).exact().radiance);
+  EXPECT_EQ(truth_.airlight(), reference::Reference(scene_.geometry, view_).exact().radiance);
 }
 
 TEST_F(ErrorOfCornell, IsThatOfTheWholeImageWhereAllTilesAreDrawn) {
-  const TileDraw draw(view_.size, truth_, truth_);
-  const TruthSample all(tracer_, draw.drawn(draw.tiles(), 1));
-  EXPECT_EQ(all.pixels(), 48u * 48u);
+  const TileDraw draw(view_.size, truth_.airlight(), truth_.airlight());
+  const std::vector<DrawnTile> all = draw.drawn(draw.tiles(), 1);
+  EXPECT_EQ(TruthOfTiles(scene_.geometry, view_, all).pixels(), 48u * 48u);
   ErrorOfTiles error;
-  error.add(all, images_);
+  error.add(truth_, all, images_);
   EXPECT_NEAR(error.rrmse(), whole(), 1e-9 * whole());
 }
 
 TEST_F(ErrorOfCornell, IsFoundWithFewTilesWhereTheErrorLies) {
-  std::vector<glm::vec3> other = truth_;
+  std::vector<glm::vec3> other = truth_.airlight();
   for (std::size_t i = 0; i < 12 * 48; ++i) other[i] *= 0.98f;
-  const TileDraw draw(view_.size, truth_, other);
+  const TileDraw draw(view_.size, truth_.airlight(), other);
   double mean = 0.0;
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
-    const TruthSample few(tracer_, draw.drawn(12, seed));
+    const std::vector<DrawnTile> drawn = draw.drawn(12, seed);
+    const TruthOfTiles few(scene_.geometry, view_, drawn);
     EXPECT_LE(few.pixels(), 12u * 64u);
     ErrorOfTiles error;
-    error.add(few, images_);
+    error.add(few, drawn, images_);
     mean += error.rrmse() / 20;
     EXPECT_EQ(error.part_not_above(10.0 * whole()), 1.0);
     EXPECT_EQ(error.part_not_above(0.1 * whole()), 0.0);
