@@ -292,11 +292,18 @@ Measurer::PathMeasurement Measurer::measure_path(
   return measurement;
 }
 
-std::int64_t Measurer::Pair::bytes() const {
+namespace {
+
+std::int64_t sum_of(const std::map<std::string, std::int64_t>& parts) {
   std::int64_t sum = 0;
-  for (const auto& of_method : {airlight->bytes(), shadow->bytes()})
-    for (const auto& [name, bytes] : of_method) sum += bytes;
+  for (const auto& [name, bytes] : parts) sum += bytes;
   return sum;
+}
+
+}  // namespace
+
+std::int64_t Measurer::Pair::bytes() const {
+  return sum_of(airlight->bytes()) + sum_of(shadow->bytes());
 }
 
 Measurer::Pair Measurer::make(const VolumeChoice& volume, const SurfaceChoice& surface) const {
@@ -313,9 +320,7 @@ std::vector<Measurer::FrameTime> Measurer::play(const Pair& pair, std::span<cons
 }
 
 std::int64_t Measurer::shared_bytes() const {
-  std::int64_t sum = 0;
-  for (const auto& [name, bytes] : frame_.bytes()) sum += bytes;
-  return sum;
+  return sum_of(frame_.bytes());
 }
 
 std::vector<frame::DebugImage> Measurer::debug_images(const VolumeChoice& volume) {

@@ -9,6 +9,7 @@
 #include "reference/surface_judge.h"
 #include "scene/error.h"
 #include "scene/transmission.h"
+#include "surface_shadows/transmission.h"
 
 namespace airlight::quality {
 namespace {
@@ -84,7 +85,7 @@ class JudgedShadow : public frame::SurfaceShadow, public Traced {
  public:
   void borrow(SharedReference& shared) override { shared_ = &shared; }
   gpu::Format visibility_format(const frame::SceneBuffers& scene) const override {
-    return scene.transmits() ? gpu::Format::rgba32f : gpu::Format::r32f;
+    return surface_shadows::transmission_format(scene);
   }
   void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override {
     inputs.surface_points();  // a stage of its own
