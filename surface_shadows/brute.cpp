@@ -26,17 +26,17 @@ void Brute::query(const frame::FrameInputs& inputs, const gpu::Texture& visibili
   const gpu::Texture& points = inputs.surface_points();
   inputs.triangle_planes();
   inputs.timer.time("surface_build", [&] { occluders_.build(inputs); });
-  if (!pass_ || transmits_ != inputs.scene.transmits()) {
-    pass_.emplace(k_brute_frag, std::array{transmission_constant(inputs.scene)});
-    transmits_ = inputs.scene.transmits();
-  }
+  const bool transmits = inputs.scene.transmits();
+  if (!passes_.contains(transmits))
+    passes_.try_emplace(transmits, k_brute_frag, std::array{transmission_constant(inputs.scene)});
+  const frame::ScreenPass& pass = passes_.at(transmits);
   inputs.timer.time("surface_query", [&] {
     occluders_.bind(inputs);
     points.bind_sampler(shaders::k_surface_unit);
     inputs.triangles.bind_sampler(shaders::k_triangle_unit);
-    pass_->pipeline().set(1, occluders_.scale());
-    pass_->pipeline().set(2, occluders_.count());
-    pass_->run({visibility});
+    pass.pipeline().set(1, occluders_.scale());
+    pass.pipeline().set(2, occluders_.count());
+    pass.run({visibility});
   });
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <optional>
+#include <map>
+
 #include "frame/method.h"
 #include "frame/screen_pass.h"
 #include "surface_shadows/occluders.h"
@@ -27,8 +28,7 @@ class Brute : public frame::SurfaceShadow {
 
  private:
   Occluders occluders_;
-  std::optional<frame::ScreenPass> pass_;  ///< of the scene
-  bool transmits_ = false;
+  std::map<bool, frame::ScreenPass> passes_;  ///< by whether the scene transmits
 };
 
 frame::SurfaceMethod brute_method();

@@ -13,6 +13,7 @@
 #include "frame/clusters.h"
 #include "surface_shadows/cluster_cache.h"
 #include "surface_shadows/median_tree.h"
+#include "surface_shadows/transmission.h"
 #include "surface_shadows/tree_options.h"
 
 #include "spirv/surface_shadows/metric_tree_cones_comp.h"
@@ -45,14 +46,9 @@ std::vector<gpu::Constant> MetricTree::walk_constants(const frame::SceneBuffers&
           transmission_constant(scene)};
 }
 
-frame::ScreenPass MetricTree::query_pass(const frame::SceneBuffers& scene, Counted counted) const {
-  std::vector<gpu::Constant> constants = walk_constants(scene);
-  constants.emplace_back(0, static_cast<std::uint32_t>(counted));
-  return frame::ScreenPass(k_metric_tree_query_frag, constants);
-}
-
 MetricTree::MetricTree(const MetricTreeOptions& options, std::optional<gpu::Limits> limits)
-    : options_(options),
+    : ShadowTree(k_metric_tree_query_frag),
+      options_(options),
       limits_(limits),
       insert_program_(gpu::Pipeline::compute(k_metric_tree_insert_comp)) {}
 
@@ -134,24 +130,18 @@ void MetricTree::move_clusters(const scene::Pose& pose) const {
   clusters_.write(clusters.data(), clusters_.bytes());
 }
 
-/// Those that depend on the scene.
-void MetricTree::make_programs(const frame::SceneBuffers& scene) {
-  if (query_ && transmits_ == scene.transmits()) return;
-  transmits_ = scene.transmits();
-  culls_ = culls(options_.cull, scene);
-  culled_parts_ = {};
-  cones_program_ = gpu::Pipeline::compute(
-      k_metric_tree_cones_comp,
-      std::array{gpu::Constant(0, culls_ ? 1u : 0u), gpu::Constant(1, flag(options_.normal_cones))});
-  query_.emplace(query_pass(scene, Counted::none));
-}
-
 /// Clusters, where the view has their triangles.
 void MetricTree::require_clusters(const frame::FrameInputs& inputs) {
   const scene::Pose& pose = inputs.view.pose;
   bool are_there = at_rest_ == inputs.scene.id_at_rest() && objects_ == pose.objects;
   if (are_there && scene_ == inputs.scene.id()) return;
-  make_programs(inputs.scene);
+  const bool is_first = scene_ == 0, culled = std::exchange(culls_, culls(options_.cull, inputs.scene));
+  if (is_first || culled != culls_) {
+    culled_parts_ = {};
+    cones_program_ = gpu::Pipeline::compute(
+        k_metric_tree_cones_comp,
+        std::array{gpu::Constant(0, culls_ ? 1u : 0u), gpu::Constant(1, flag(options_.normal_cones))});
+  }
   if (culls_) {
     // What touches is one part: where objects come together or part, other triangles are.
     CulledParts parts(inputs);
@@ -286,40 +276,15 @@ void MetricTree::bind_walk(const frame::FrameInputs& inputs, const gpu::Pipeline
   if (options_.slabs == Use::on || options_.distance_cull == Use::on) pipeline.set(7, scale_.reach);
 }
 
-void MetricTree::run(const frame::ScreenPass& pass, const frame::FrameInputs& inputs,
-                     const gpu::Texture& image) const {
-  bind_walk(inputs, pass.pipeline());
-  inputs.surface_points().bind_sampler(shaders::k_surface_unit);
-  inputs.triangles.bind_sampler(shaders::k_triangle_unit);
-  pass.run({image});
-}
-
-void MetricTree::query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) {
-  inputs.surface_points();  // a stage of its own
-  build(inputs);
-  inputs.timer.time("surface_query", [&] { run(*query_, inputs, visibility); });
-}
-
-void MetricTree::count_nodes(const frame::FrameInputs& inputs, const gpu::Texture& counts) {
-  run(query_pass(inputs.scene, Counted::nodes), inputs, counts);
-}
-
 std::uint32_t MetricTree::always_asked() const {
   constexpr std::int64_t k_word = 11;  // MetricNode::place of node 0
   return nodes_.read<std::uint32_t>(k_word, 1).at(0);
 }
 
 std::map<std::string, double> MetricTree::counters(const frame::FrameInputs& inputs) {
-  const gpu::Texture of_pixels(gpu::Format::r32f, inputs.view.size);
-  const auto total = [&](Counted counted) {
-    run(query_pass(inputs.scene, counted), inputs, of_pixels);
-    double sum = 0.0;
-    for (const float of_pixel : of_pixels.read<float>()) sum += static_cast<double>(of_pixel);
-    return sum;
-  };
-  return {{"surface_nodes", total(Counted::nodes)},
-          {"surface_clusters", total(Counted::clusters)},
-          {"surface_triangles", total(Counted::triangles)}};
+  return {{"surface_nodes", total(inputs, Counted::nodes)},
+          {"surface_clusters", total(inputs, Counted::clusters)},
+          {"surface_triangles", total(inputs, Counted::triangles)}};
 }
 
 std::map<std::string, std::int64_t> MetricTree::bytes() const {

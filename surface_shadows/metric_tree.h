@@ -8,11 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "frame/method.h"
-#include "frame/screen_pass.h"
 #include "surface_shadows/culled_parts.h"
 #include "surface_shadows/occluders.h"
-#include "surface_shadows/transmission.h"
+#include "surface_shadows/shadow_tree.h"
 #include "surface_shadows/triangle_clusters.h"
 
 namespace airlight::surface_shadows {
@@ -46,30 +44,17 @@ struct MetricTreeOptions {
 /// whatever its other options, it answers what `brute` does with the same culling. Where objects move, each
 /// cluster is of one of them, and its bounds go with it.
 /// Based on: see shaders/surface_shadows/metric_tree.glsl and triangle_clusters.h.
-class MetricTree : public frame::SurfaceShadow {
+class MetricTree : public ShadowTree {
  public:
   /// @param limits of its buffers; without, the driver's
   explicit MetricTree(const MetricTreeOptions& options, std::optional<gpu::Limits> limits = {});
-  /// @throws scene::Error (driver) for more clusters than one storage block holds nodes of
-  gpu::Format visibility_format(const frame::SceneBuffers& scene) const override {
-    return transmission_format(scene);
-  }
-  void query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) override;
   std::map<std::string, std::int64_t> bytes() const override;
   /// "surface_nodes" of the tree that pixels visit, "surface_clusters" and "surface_triangles" that they ask.
   std::map<std::string, double> counters(const frame::FrameInputs& inputs) override;
 
-  /// How many nodes each pixel visited, instead of visibility, of the tree that the last `query` made.
-  /// @param counts r32f
-  void count_nodes(const frame::FrameInputs& inputs, const gpu::Texture& counts);
-
-  /// Makes the tree for the light of `inputs`.
-  void build(const frame::FrameInputs& inputs);
-
-  // Of shaders that go down the tree (shaders/surface_shadows/metric_tree_walk.glsl):
-  std::vector<gpu::Constant> walk_constants(const frame::SceneBuffers& scene) const;
-  /// @param inputs as of `build`
-  void bind_walk(const frame::FrameInputs& inputs, const gpu::Pipeline& pipeline) const;
+  void build(const frame::FrameInputs& inputs) override;
+  std::vector<gpu::Constant> walk_constants(const frame::SceneBuffers& scene) const override;
+  void bind_walk(const frame::FrameInputs& inputs, const gpu::Pipeline& pipeline) const override;
 
   /// Of the scene that the last `query` was of.
   std::uint32_t cluster_count() const { return cluster_count_; }
@@ -78,9 +63,6 @@ class MetricTree : public frame::SurfaceShadow {
   std::uint32_t always_asked() const;
 
  private:
-  /// What a query writes in the place of visibility, a pixel.
-  enum class Counted : std::uint32_t { none, nodes, clusters, triangles };
-
   /// What rounding and the scene's size make of the light's distances.
   struct Distances {
     float error;          ///< see Observer of shaders/surface_shadows/apparent.glsl
@@ -92,19 +74,15 @@ class MetricTree : public frame::SurfaceShadow {
   TriangleClusters clusters_of(const frame::FrameInputs& inputs,
                                std::span<const std::uint32_t> object_of_triangle) const;
   void load(const frame::FrameInputs& inputs);
-  void make_programs(const frame::SceneBuffers& scene);
   void require_clusters(const frame::FrameInputs& inputs);
   void move_clusters(const scene::Pose& pose) const;
   void link_on_cpu(const frame::FrameInputs& inputs, const Distances& of_light) const;
   void insert_clusters(const frame::FrameInputs& inputs);
   std::uint32_t write_light_view(const frame::FrameInputs& inputs) const;
-  void run(const frame::ScreenPass& pass, const frame::FrameInputs& inputs, const gpu::Texture& image) const;
-  frame::ScreenPass query_pass(const frame::SceneBuffers& scene, Counted counted) const;
 
   MetricTreeOptions options_;
   std::optional<gpu::Limits> limits_;
   gpu::Pipeline cones_program_, insert_program_;
-  std::optional<frame::ScreenPass> query_;  ///< of the scene
 
   std::uint64_t scene_ = 0;    ///< SceneBuffers::id
   std::uint64_t at_rest_ = 0;  ///< SceneBuffers::id_at_rest of the scene that the clusters are of, …
@@ -112,7 +90,7 @@ class MetricTree : public frame::SurfaceShadow {
   // Where there are any, in the order of the clusters:
   std::vector<TriangleCluster> clusters_at_rest_;
   std::vector<std::uint32_t> object_of_cluster_;  ///< as of Objects::of_triangle
-  bool culls_ = false, transmits_ = false;
+  bool culls_ = false;
   std::uint32_t cluster_count_ = 0;
   double capsule_share_ = 0.0;
   CulledParts culled_parts_;

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "frame/blocks.h"
+#include "surface_shadows/transmission.h"
 #include "surface_shadows/tree_options.h"
 
 #include "spirv/surface_shadows/psv_insert_comp.h"
@@ -21,14 +22,9 @@ std::vector<gpu::Constant> Psv::walk_constants(const frame::SceneBuffers& scene)
           transmission_constant(scene)};
 }
 
-frame::ScreenPass Psv::query_pass(const frame::SceneBuffers& scene, bool counts) const {
-  std::vector<gpu::Constant> constants = walk_constants(scene);
-  constants.emplace_back(0, counts ? 1u : 0u);
-  return frame::ScreenPass(k_psv_query_frag, constants);
-}
-
 Psv::Psv(const PsvOptions& options)
-    : options_(options),
+    : ShadowTree(k_psv_query_frag),
+      options_(options),
       occluders_(options.cull),
       planes_program_(gpu::Pipeline::compute(k_psv_planes_comp)),
       insert_program_(gpu::Pipeline::compute(k_psv_insert_comp)) {}
@@ -39,8 +35,6 @@ void Psv::load(const frame::FrameInputs& inputs) {
   const gpu::Limits& limits = inputs.context.limits();
   gpu::require_storage_block(limits, node * (nodes + 1), "the tree of the model's triangles",
                              k_storage_remedy);
-  if (!query_ || transmits_ != inputs.scene.transmits()) query_.emplace(query_pass(inputs.scene, false));
-  transmits_ = inputs.scene.transmits();
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0u);
   if (options_.order == InsertionOrder::random)
@@ -88,30 +82,8 @@ void Psv::bind_walk(const frame::FrameInputs& inputs, const gpu::Pipeline& pipel
   pipeline.set(2, occluders_.reach());
 }
 
-void Psv::run(const frame::ScreenPass& pass, const frame::FrameInputs& inputs,
-              const gpu::Texture& image) const {
-  bind_walk(inputs, pass.pipeline());
-  inputs.surface_points().bind_sampler(shaders::k_surface_unit);
-  inputs.triangles.bind_sampler(shaders::k_triangle_unit);
-  pass.run({image});
-}
-
-void Psv::query(const frame::FrameInputs& inputs, const gpu::Texture& visibility) {
-  inputs.surface_points();  // a stage of its own
-  build(inputs);
-  inputs.timer.time("surface_query", [&] { run(*query_, inputs, visibility); });
-}
-
-void Psv::count_nodes(const frame::FrameInputs& inputs, const gpu::Texture& counts) {
-  run(query_pass(inputs.scene, true), inputs, counts);
-}
-
 std::map<std::string, double> Psv::counters(const frame::FrameInputs& inputs) {
-  const gpu::Texture of_pixels(gpu::Format::r32f, inputs.view.size);
-  count_nodes(inputs, of_pixels);
-  double nodes = 0.0;
-  for (const float count : of_pixels.read<float>()) nodes += static_cast<double>(count);
-  return {{"surface_nodes", nodes}};
+  return {{"surface_nodes", total(inputs, Counted::nodes)}};
 }
 
 std::map<std::string, std::int64_t> Psv::bytes() const {

@@ -9,10 +9,6 @@ layout(location = 1) uniform float scale;
 layout(location = 2) uniform uint triangle_count;
 layout(location = 0) out vec4 visibility;
 
-void pass_own(uint number, vec3 point) {
-  pass_through(light_rays(), occluder(number), texelFetch(attenuations, int(number)), point);
-}
-
 vec3 light_at(vec3 point, uint own_plane) {
   begin_point();
   LightRays rays = light_rays();

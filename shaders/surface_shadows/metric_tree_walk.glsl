@@ -24,6 +24,10 @@ layout(constant_id = 33) const bool k_culls_by_interval = true;
 layout(constant_id = 35) const bool k_culls_by_slabs = true;
 layout(constant_id = 36) const bool k_stores_distances = false;
 
+Occluder occluder(uint triangle) {
+  return turned_triangle(light_rays(), LightFrame(origin_high, origin_low, scale), triangle).occluder;
+}
+
 uint plane_of(uint triangle) { return texelFetch(triangle_planes, int(triangle)).r; }
 
 // What is asked of the tree.
@@ -174,15 +178,8 @@ void walk_without_stack(Query query, uint root) {
   }
 }
 
-// Light passes the triangle whose own surface a point is.
-void pass_own(uint number, vec3 point) {
-  Occluder own = turned_triangle(light_rays(), LightFrame(origin_high, origin_low, scale), number).occluder;
-  pass_through(light_rays(), own, texelFetch(attenuations, int(number)), point);
-}
-
 // What is left of the light at a point, scaled and relative to the light, under a sun to the eye.
 // `own_plane`: of the point's surface (occluders.glsl); k_in_air for none.
-const uint k_in_air = 0xffffffffu;
 vec3 light_at(vec3 point, uint own_plane) {
   begin_point();
   Query query;

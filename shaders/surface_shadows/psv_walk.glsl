@@ -118,14 +118,8 @@ void walk_without_stack(Query query, uint root) {
   }
 }
 
-// Light passes the triangle whose own surface a point is.
-void pass_own(uint number, vec3 point) {
-  pass_through(light_rays(), occluder(number), texelFetch(attenuations, int(number)), point);
-}
-
 // What is left of the light at a point, scaled and relative to the light, under a sun to the eye.
 // `own_plane`: of the point's surface (occluders.glsl); k_in_air for none.
-const uint k_in_air = 0xffffffffu;
 vec3 light_at(vec3 point, uint own_plane) {
   begin_point();
   float distance = length(point);

@@ -15,7 +15,7 @@ vec3 light_at_surface(ivec2 pixel) {
     if (is_lit) {
       arriving = light_at(point, plane_of(seen));
       if (parts_eye_from_light && !is_hidden) {
-        pass_own(seen, point);
+        pass_through(light_rays(), occluder(seen), texelFetch(attenuations, int(seen)), point);
         arriving = light_left();
       }
     }

@@ -12,6 +12,9 @@ layout(constant_id = 34) const uint k_transmits = 0;  // light passes some trian
 const float k_halving = 65536.0;
 const uint k_nothing_left = 40u * 65536u;
 
+// In the place of the plane that a point's surface lies in, where it is on none.
+const uint k_in_air = 0xffffffffu;
+
 bool is_hidden = false;
 uvec3 taken = uvec3(0u);
 
