@@ -7,6 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "surface_shadows/metric_tree.h"
+#include "surface_shadows/psv.h"
+
 #include "spirv/media/march_frag.h"
 #include "spirv/media/march_gather_frag.h"
 #include "spirv/media/march_rows_frag.h"
@@ -19,42 +22,34 @@ namespace airlight::media {
 /// long (a GPU that also drives a display): a way down a tree takes up to some thousand.
 constexpr std::uint32_t k_steps_of_tree_pass = 16;
 
-March::March(const gpu::Context& context, const MarchOptions& options)
-    : options_(options), space_(sizeof(shaders::EpipolarBlock)) {
-  if (options.look_up == MarchLookUp::psv) tree_.emplace<surface_shadows::Psv>(surface_shadows::PsvOptions{});
-  if (options.look_up == MarchLookUp::metric_tree)
-    tree_.emplace<surface_shadows::MetricTree>(surface_shadows::MetricTreeOptions{});
-  if (options.look_up == MarchLookUp::rows) rows_.emplace(context.limits(), options.volume);
-  if (options.jitter == MarchJitter::gathered) gather_.emplace(k_march_gather_frag);
-}
-
 namespace {
 
-/// Calls f with the tree, where there is one.
-template <typename Tree, typename Function>
-void with_tree(Tree& tree, const Function& f) {
-  std::visit(
-      [&](auto& held) {
-        if constexpr (!std::is_same_v<std::remove_cvref_t<decltype(held)>, std::monostate>) f(held);
-      },
-      tree);
+std::unique_ptr<surface_shadows::ShadowTree> make_tree(MarchTree tree) {
+  if (tree == MarchTree::psv) return std::make_unique<surface_shadows::Psv>(surface_shadows::PsvOptions{});
+  return std::make_unique<surface_shadows::MetricTree>(surface_shadows::MetricTreeOptions{});
 }
 
-std::span<const std::uint32_t> fragment_of(MarchLookUp look_up) {
-  switch (look_up) {
+std::span<const std::uint32_t> fragment_of(const MarchOptions& options) {
+  switch (options.look_up) {
     case MarchLookUp::map:
       return k_march_frag;
     case MarchLookUp::rows:
       return k_march_rows_frag;
-    case MarchLookUp::psv:
-      return k_tree_march_psv_frag;
-    case MarchLookUp::metric_tree:
-      return k_tree_march_metric_tree_frag;
+    case MarchLookUp::tree:
+      break;
   }
-  return {};
+  if (options.tree == MarchTree::psv) return k_tree_march_psv_frag;
+  return k_tree_march_metric_tree_frag;
 }
 
 }  // namespace
+
+March::March(const gpu::Context& context, const MarchOptions& options)
+    : options_(options), space_(sizeof(shaders::EpipolarBlock)) {
+  if (options.look_up == MarchLookUp::tree) tree_ = make_tree(options.tree);
+  if (options.look_up == MarchLookUp::rows) rows_.emplace(context.limits(), options.volume);
+  if (options.jitter == MarchJitter::gathered) gather_.emplace(k_march_gather_frag);
+}
 
 const frame::ScreenPass& March::load(const Variant& variant, const frame::SceneBuffers& scene) {
   if (const auto found = passes_.find(variant); found != passes_.end()) return found->second;
@@ -73,14 +68,13 @@ const frame::ScreenPass& March::load(const Variant& variant, const frame::SceneB
       constants.push_back(count);
     constants.emplace_back(11, true);  // some view rays may look away from the light
     constants.emplace_back(17, static_cast<std::uint32_t>(epipolar::Query::light_rays));
-  } else if (!options_.asks_tree()) {
+  } else if (tree_) {
+    for (const gpu::Constant& constant : tree_->walk_constants(scene)) constants.push_back(constant);
+  } else {
     constants.emplace_back(16, variant.plane);
   }
-  with_tree(tree_, [&](const auto& tree) {
-    for (const gpu::Constant& constant : tree.walk_constants(scene)) constants.push_back(constant);
-  });
   return passes_
-      .emplace(variant, frame::ray_pass(options_.rays, fragment_of(options_.look_up), constants,
+      .emplace(variant, frame::ray_pass(options_.rays, fragment_of(options_), constants,
                                         variant.adds ? gpu::Blend::add : gpu::Blend::replace))
       .first->second;
 }
@@ -101,7 +95,7 @@ void March::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radi
   const bool is_sun = scene::is_sun(light);
   const std::uint32_t layer = layer_of(view.medium, light, view.camera.eye);
   const auto steps = static_cast<std::uint32_t>(options_.steps);
-  const std::uint32_t steps_of_pass = options_.asks_tree() ? k_steps_of_tree_pass : steps;
+  const std::uint32_t steps_of_pass = tree_ ? k_steps_of_tree_pass : steps;
   Variant variant{.phase = static_cast<std::uint32_t>(view.medium.phase),
                   .layer = layer,
                   .reach = reach_of(light),
@@ -109,7 +103,7 @@ void March::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radi
                   .plane = inputs.shadow_map_is_plane(),
                   .rough = !is_sun && is_rough(inputs, layer),
                   .sun = is_sun,
-                  .transmits = options_.asks_tree() && inputs.scene.transmits(),
+                  .transmits = tree_ && inputs.scene.transmits(),
                   .adds = false};
   std::vector<const frame::ScreenPass*> passes;
   for (std::uint32_t from = 0; from < steps; from += steps_of_pass) {
@@ -127,11 +121,12 @@ void March::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radi
     const shaders::EpipolarBlock block = gridless_space(view, light);
     space_.write(&block, sizeof block);
     space_.bind_uniform(shaders::k_space_block);
-    if (!options_.asks_tree()) inputs.shadow_map(0.0).bind_sampler(shaders::k_shadow_map_unit);
-    with_tree(tree_, [&](auto& tree) {
-      tree.build(inputs);
-      for (const frame::ScreenPass* pass : passes) tree.bind_walk(inputs, pass->pipeline());
-    });
+    if (tree_) {
+      tree_->build(inputs);
+      for (const frame::ScreenPass* pass : passes) tree_->bind_walk(inputs, pass->pipeline());
+    } else {
+      inputs.shadow_map(0.0).bind_sampler(shaders::k_shadow_map_unit);
+    }
   }
   if (gather_ && scattered_.size() != radiance.size())
     scattered_ = gpu::Texture(radiance.format(), radiance.size());
@@ -152,7 +147,7 @@ void March::integrate(const frame::FrameInputs& inputs, const gpu::Texture& radi
 std::map<std::string, std::int64_t> March::bytes() const {
   std::map<std::string, std::int64_t> bytes;
   if (rows_) bytes = rows_->bytes();
-  with_tree(tree_, [&](const auto& tree) { bytes = tree.bytes(); });
+  if (tree_) bytes = tree_->bytes();
   if (gather_) bytes["scattered"] = scattered_.bytes();
   return bytes;
 }
@@ -162,8 +157,6 @@ std::map<std::string, double> March::counters(const frame::FrameInputs& inputs) 
 }
 
 namespace {
-
-constexpr int k_first_tree = static_cast<int>(MarchLookUp::psv);
 
 /// How view rays are cut into steps, and where in these points are looked up.
 std::vector<frame::Option> step_options() {
@@ -232,21 +225,16 @@ frame::AirlightMethod march_method() {
 
 frame::AirlightMethod tree_march_method() {
   std::vector<frame::Option> options = step_options();
-  options.push_back(frame::word_option<MarchOptions, MarchLookUp>(
+  options.push_back(frame::word_option(
       {.name = "tree",
        .meaning = "which tree is asked",
        .quality = "none",
        .cost = "a tree is made each frame, and asked at every step",
        .sweep = {"psv", "metric-tree"}},
       {{"psv", "partitioned shadow volumes"}, {"metric-tree", "clusters of triangles in a metric tree"}},
-      [](const MarchOptions& march) {
-        return static_cast<MarchLookUp>(static_cast<int>(march.look_up) - k_first_tree);
-      },
-      [](MarchOptions& march, MarchLookUp tree) {
-        march.look_up = static_cast<MarchLookUp>(static_cast<int>(tree) + k_first_tree);
-      }));
+      &MarchOptions::tree));
   return method_of("tree-march", "a tree of triangles asked along each view ray: no voxels, no shadow map",
-                   {.transmits = true}, std::move(options), {.look_up = MarchLookUp::psv});
+                   {.transmits = true}, std::move(options), {.look_up = MarchLookUp::tree});
 }
 
 }  // namespace airlight::media

@@ -2,9 +2,9 @@
 
 #include <compare>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 
 #include "epipolar/volume.h"
 #include "frame/method.h"
@@ -13,8 +13,7 @@
 #include "gpu/buffer.h"
 #include "gpu/texture.h"
 #include "media/lighting.h"
-#include "surface_shadows/metric_tree.h"
-#include "surface_shadows/psv.h"
+#include "surface_shadows/shadow_tree.h"
 
 namespace airlight::media {
 
@@ -33,15 +32,18 @@ enum class MarchJitter {
 
 /// What is looked up.
 enum class MarchLookUp {
-  map,          ///< the shadow map
-  rows,         ///< the first occluders of light rays in half-planes, to which the shadow map is resampled
-  psv,          ///< the tree of surface_shadows::Psv
-  metric_tree,  ///< that of surface_shadows::MetricTree
+  map,   ///< the shadow map
+  rows,  ///< the first occluders of light rays in half-planes, to which the shadow map is resampled
+  tree,  ///< a tree of triangles
 };
+
+/// Of surface_shadows::Psv, of surface_shadows::MetricTree.
+enum class MarchTree { psv, metric_tree };
 
 struct MarchOptions {
   int steps = 32;
   MarchLookUp look_up = MarchLookUp::map;
+  MarchTree tree = MarchTree::psv;
   epipolar::VolumeOptions volume = {.query = epipolar::Query::light_rays};  ///< of rows
   MarchSpacing spacing = MarchSpacing::distance;
   MarchJitter jitter = MarchJitter::off;
@@ -50,7 +52,7 @@ struct MarchOptions {
   /// @throws scene::Error (usage) where a volume cannot be of these counts.
   void validate() const { volume.validate(); }
   void fit(const scene::View& view) { volume.fit(view); }
-  bool asks_tree() const { return look_up == MarchLookUp::psv || look_up == MarchLookUp::metric_tree; }
+  bool asks_tree() const { return look_up == MarchLookUp::tree; }
   bool needs_shadow_map() const { return !asks_tree(); }
   bool ignores_cut_outs() const { return asks_tree(); }
   /// A phase function whose lobe is too narrow. And a mean over neighbours where rays are listed, which have
@@ -93,7 +95,7 @@ class March : public frame::Airlight {
   gpu::Buffer space_;  ///< EpipolarBlock of look-ups of the map
   // Or what is looked up instead:
   std::optional<epipolar::ShadowVolume> rows_;
-  std::variant<std::monostate, surface_shadows::Psv, surface_shadows::MetricTree> tree_;
+  std::unique_ptr<surface_shadows::ShadowTree> tree_;
   std::map<Variant, frame::ScreenPass> passes_;
   std::optional<frame::ScreenPass> gather_;
   gpu::Texture scattered_;  ///< of the size of the image, before it is gathered

@@ -13,9 +13,9 @@
 namespace airlight {
 namespace {
 
-using media::MarchLookUp;
+using media::MarchLookUp, media::MarchTree;
 
-constexpr MarchLookUp k_trees[] = {MarchLookUp::psv, MarchLookUp::metric_tree};
+constexpr MarchTree k_trees[] = {MarchTree::psv, MarchTree::metric_tree};
 
 TEST(TreeMarch, ComesToTheReferenceWithItsStepsAlone) {
   // No shadow map and no cells: what is left falls with the step.
@@ -26,7 +26,7 @@ TEST(TreeMarch, ComesToTheReferenceWithItsStepsAlone) {
   for (const int steps : {16, 64, 256}) {
     error =
         tests::error_of(
-            tests::render_march(scene.geometry, view, {.steps = steps, .look_up = MarchLookUp::psv}), truth)
+            tests::render_march(scene.geometry, view, {.steps = steps, .look_up = MarchLookUp::tree}), truth)
             .rrmse;
     EXPECT_LT(error, 0.5 * before) << steps;
     before = error;
@@ -40,8 +40,9 @@ TEST_P(TreeMarchBehindGlass, HasColouredShafts) {
   const scene::Geometry geometry = tests::of_glass(tests::panes_over_floor(2), {0.9f, 0.4f, 0.0f});
   const scene::View view = tests::view_below_panes({32, 24}, GetParam());
   const tests::Truth truth = tests::trace(geometry, view);
-  for (const MarchLookUp tree : k_trees) {
-    const frame::FrameImages image = tests::render_march(geometry, view, {.steps = 256, .look_up = tree});
+  for (const MarchTree tree : k_trees) {
+    const frame::FrameImages image =
+        tests::render_march(geometry, view, {.steps = 256, .look_up = MarchLookUp::tree, .tree = tree});
     EXPECT_LT(tests::error_of(image, truth).rrmse, 5e-3) << static_cast<int>(tree);
   }
   // What takes the panes for opaque is far off.
@@ -53,10 +54,12 @@ INSTANTIATE_TEST_SUITE_P(ByALampAndASun, TreeMarchBehindGlass, testing::Bool());
 TEST(TreeMarch, IsTheSameByBothTrees) {
   const scene::Scene& scene = tests::builtin("toroid");
   const scene::View view = tests::view_of(scene, {24, 24});
-  const auto by = [&](MarchLookUp tree) {
-    return tests::render_march(scene.geometry, view, {.steps = 16, .look_up = tree}).airlight;
+  const auto by = [&](MarchTree tree) {
+    return tests::render_march(scene.geometry, view,
+                               {.steps = 16, .look_up = MarchLookUp::tree, .tree = tree})
+        .airlight;
   };
-  EXPECT_TRUE(by(MarchLookUp::psv) == by(MarchLookUp::metric_tree));
+  EXPECT_TRUE(by(MarchTree::psv) == by(MarchTree::metric_tree));
 }
 
 }  // namespace
