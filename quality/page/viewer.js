@@ -249,6 +249,7 @@ class Viewer {
   paint() {
     if (this.is_waiting) return;
     this.is_waiting = true;
+    this.place.setAttribute("aria-busy", "true");
     requestAnimationFrame(() => {
       this.is_waiting = false;
       this.paint_now();

@@ -4,7 +4,7 @@ const wrong = [];
 const expect = (is_so, what) => is_so || wrong.push(what);
 const $ = (selector) => document.querySelector(selector);
 
-/** Until the viewer shows what it was told to: its pixels are unpacked on another thread, in a time that no timer here knows. */
+/** Until the viewer shows what it was told to: pixels are unpacked on another thread and painted with a frame, in times that no timer here knows. */
 async function settled() {
   const turn = () => new Promise((done) => {
     const { port1, port2 } = new MessageChannel();
