@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <span>
 
 #include <fmt/format.h>
@@ -107,6 +109,7 @@ void compare(const Options& options) {
   require_folder(folder);
   const auto json = options.get("json");
   if (json && *json != "-") require_writable(*json);
+  const std::unique_ptr<quality::Tev> tev = open_tev(options.tev);
   if (!options.quiet) say_warnings(subject.scene.report);
 
   require_memory({.size = subject.view.size,
@@ -119,6 +122,8 @@ void compare(const Options& options) {
     // What is asked of all pairs is left out.
     return command_of_pair(options, volume, surface, {"json", "max-error", "max-undecided"});
   };
+  std::function<void(const std::string&, const frame::FrameImages&)> show;
+  if (tev) show = [&](const std::string& name, const frame::FrameImages& images) { tev->show(name, images); };
   quality::Comparison comparison;
   {
     ProgressLine progress(options.quiet);
@@ -136,7 +141,8 @@ void compare(const Options& options) {
                                             .cache = options.get("cache").value_or(""),
                                             .debug = options.debug,
                                             .command = command,
-                                            .progress = progress.follower()});
+                                            .progress = progress.follower(),
+                                            .show = show});
   }
 
   if (options.debug && !options.quiet &&
@@ -144,6 +150,7 @@ void compare(const Options& options) {
                   [](const quality::Run& run) { return run.debug_images.empty(); })) {
     say("airlight: warning: --debug: no --volume has pictures to show; vsv has");
   }
+  if (!options.quiet) say_of_tev(tev.get());
   // Those of the scene are said already.
   if (!options.quiet) {
     const std::size_t said = subject.scene.report.warnings.size();

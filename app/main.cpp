@@ -12,6 +12,7 @@
 #include "app/options.h"
 #include "app/output.h"
 #include "quality/results.h"
+#include "quality/tev.h"
 #include "scene/choices.h"
 
 namespace airlight::app {
@@ -28,6 +29,16 @@ void add_option(CLI::App& command, const OptionLine& line) {
           fmt::format("--{}", line.name), [](const std::string&) {}, line.help)
       ->type_name(std::string(line.placeholder))
       ->take_last();
+}
+
+constexpr const char* k_tev = "--tev";  ///< a flag that may have a value
+
+/// Of a command that renders.
+void add_tev(CLI::App& command, Options& options) {
+  command.add_flag(fmt::format("{}{{{}}}", k_tev, quality::Tev::k_address), options.tev,
+                   fmt::format("also show the images in a running tev as they are rendered; --tev=HOST:PORT "
+                               "where it is not at {}",
+                               quality::Tev::k_address));
 }
 
 /// The scenes of `compare` and of `view` where none is named: one that is quick to trace, and one that is to
@@ -87,7 +98,9 @@ std::vector<std::pair<std::string, std::string>> read_words(const CLI::App& app,
     if (!is_of_light && !seen.insert(option).second)
       throw Error(ExitCode::usage, name, "it is given twice", "give it once");
     const bool takes_value = option->get_items_expected_max() > 0, has_value = word.size() > name.size();
-    if (!takes_value && has_value) throw Error(ExitCode::usage, word, fmt::format("{} takes no value", name));
+    const bool may_take_value = name == k_tev;
+    if (!takes_value && has_value && !may_take_value)
+      throw Error(ExitCode::usage, word, fmt::format("{} takes no value", name));
     if (takes_value && !has_value && ++i == argc)
       throw Error(ExitCode::usage, name, fmt::format("its {} is missing", option->get_type_name()), help);
     if (takes_value && is_long)
@@ -114,6 +127,8 @@ int run(int argc, char** argv) {
 
   add_option(render_command,
              {"video", "FILE.mp4", "along a path, a video of the images' previews too, by ffmpeg"});
+
+  add_tev(render_command, options);
 
   CLI::App& view_command =
       add_image_command(app, options, "view", "opens a window to fly through a scene", k_viewed_scene);
@@ -152,6 +167,8 @@ int run(int argc, char** argv) {
       "--debug", options.debug,
       "also write pictures of what a volume method holds; of vsv: the grid before and after "
       "the scan, and the shadowed samples and the changes of visibility of each pixel");
+
+  add_tev(compare_command, options);
 
   CLI::App& sweep_command = add_image_command(
       app, options, "sweep",

@@ -34,6 +34,7 @@ struct Options {
   std::vector<std::pair<std::string, std::string>> given;
   std::vector<std::string> places;  ///< DIR of `front` and `report`, words of `image`
   std::string output;               ///< -o; empty without
+  std::string tev;                  ///< of `render` and `compare`: where a tev listens; empty without
   bool quiet = false;
   bool debug = false;    ///< of `compare`
   bool all = false;      ///< of `sweep`

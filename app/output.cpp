@@ -61,6 +61,15 @@ void say_warnings(const scene::ImportReport& report) {
   for (const std::string& warning : report.warnings) say("airlight: warning: " + warning);
 }
 
+std::unique_ptr<quality::Tev> open_tev(const std::string& address) {
+  return address.empty() ? nullptr : std::make_unique<quality::Tev>(address);
+}
+
+void say_of_tev(const quality::Tev* tev) {
+  if (tev && !tev->is_there())
+    say("airlight: warning: --tev: tev was closed, and does not show all that was rendered");
+}
+
 ProgressLine::ProgressLine(bool quiet) : is_shown_(!quiet && isatty(STDERR_FILENO)) {}
 
 ProgressLine::~ProgressLine() {

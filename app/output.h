@@ -2,10 +2,12 @@
 
 #include <chrono>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
 #include "quality/methods.h"
+#include "quality/tev.h"
 #include "scene/scene.h"
 
 namespace airlight::app {
@@ -28,6 +30,12 @@ void say_page(const std::filesystem::path& file);
 
 /// Says what the importer dropped or could not represent.
 void say_warnings(const scene::ImportReport& report);
+
+/// The tev that images are shown in. @param address of quality::Tev; empty for none
+std::unique_ptr<quality::Tev> open_tev(const std::string& address);
+
+/// Says so where it was closed before it was shown all. @param tev may be null
+void say_of_tev(const quality::Tev* tev);
 
 /// A line on standard error that follows long work, where that is a terminal.
 class ProgressLine {

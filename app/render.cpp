@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <future>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -41,6 +42,7 @@ struct Images {
   const quality::SurfaceChoice& surface;
   int shadow_map;
   std::optional<float> exposure;  ///< automatic until the first image
+  quality::Tev* tev = nullptr;    ///< that shows them, if there is one
   std::string renderer = {};
   bool first_is_black = false;
   std::string first_skipped = {};  ///< quality::skipped_lights
@@ -52,6 +54,7 @@ struct Images {
       first_skipped = quality::skipped_lights(images);
     }
     is_first = false;
+    if (tev) tev->show(file.stem().string(), images);
     if (!exposure) exposure = quality::automatic_exposure(images.radiance);
     auto preview_is_written = std::async(std::launch::async, [&] {
       quality::write_png(beside(file), images.radiance, images.size, *exposure, subject.scene.tone_map);
@@ -143,6 +146,7 @@ void render(const Options& options) {
     if (video->has_parent_path()) require_folder(video->parent_path());
     require_writable(*video);
   }
+  const std::unique_ptr<quality::Tev> tev = open_tev(options.tev);
   if (!options.quiet) say_warnings(subject.scene.report);
 
   require_memory({.size = subject.view.size,
@@ -157,7 +161,8 @@ void render(const Options& options) {
                 .volume = volume,
                 .surface = surface,
                 .shadow_map = shadow_map,
-                .exposure = subject.exposure};
+                .exposure = subject.exposure,
+                .tev = tev.get()};
   const std::span<const scene::View> views = subject.views();
   {
     ProgressLine progress(options.quiet);
@@ -187,6 +192,7 @@ void render(const Options& options) {
   }
   if (video) write_video(*video, output, *subject.path);
   if (options.quiet) return;
+  say_of_tev(tev.get());
   if (images.first_is_black)
     say("airlight: warning: the image is black: " + quality::why_black(subject.scene.geometry, subject.view));
   if (!images.first_skipped.empty())

@@ -65,12 +65,17 @@ Exposure choose_exposure(const CompareRequest& request, const std::vector<glm::v
                           : Exposure{automatic_exposure(radiance), true, is_black(radiance)};
 }
 
+void show(const CompareRequest& request, const std::string& name, const frame::FrameImages& images) {
+  if (request.show) request.show(name, images);
+}
+
 void write_truth(const CompareRequest& request, const frame::FrameImages& images, const Truth& truth,
                  const Exposure& exposure) {
   const VolumeChoice volume = parse_volumes("reference")[0];
   const SurfaceChoice surface = parse_surfaces("reference")[0];
   auto metadata =
       metadata_of(request, volume.spec, surface.spec, command_of(request, "reference", volume, surface));
+  show(request, "reference", images);
   metadata["airlight.bound"] = fmt::format("{}", truth.figures.bound);
   write_frame(request.directory / "reference.exr", images, metadata);
   write_png(request.directory / "reference.png", images.radiance, images.size, exposure.value,
@@ -127,8 +132,10 @@ std::vector<Truth> trace_path(const CompareRequest& request, Measurer& measurer,
     const Truth& truth = truths.emplace_back(truth_of(measurer, views[i]));
     const frame::FrameImages images = images_of_truth(measurer, truth);
     if (i == 0) comparison.exposure = choose_exposure(request, images.radiance);
-    write_png(request.directory / fmt::format("reference{}.png", scene::frame_ending(i)), images.radiance,
-              images.size, comparison.exposure.value, request.scene.tone_map);
+    const std::string name = fmt::format("reference{}", scene::frame_ending(i));
+    show(request, name, images);
+    write_png(request.directory / (name + ".png"), images.radiance, images.size, comparison.exposure.value,
+              request.scene.tone_map);
 
     const TruthFigures& figures = truth.figures;
     path.frames.push_back(
@@ -225,11 +232,13 @@ Comparison compare(gpu::Context& context, const CompareRequest& request) {
       Run run = judged_run(measurer, views, request.path, truths, volume, surface, request.frames,
                            [&](const Run& judged, std::size_t i, const frame::FrameImages& images) {
                              command = command_of(request, judged.name, volume, surface);
+                             const std::string ending = request.path ? scene::frame_ending(i) : "";
+                             show(request, judged.name + ending, images);
                              if (!request.path)
                                write_frame(request.directory / (judged.name + ".exr"), images,
                                            metadata_of(request, judged.volume, judged.surface, command));
-                             write_previews(request, judged.name, request.path ? scene::frame_ending(i) : "",
-                                            images, truths[i].shown_by(volume.method->traits),
+                             write_previews(request, judged.name, ending, images,
+                                            truths[i].shown_by(volume.method->traits),
                                             truths[i].shown_by(surface.method->traits), comparison.exposure);
                            });
       run.command = command;

@@ -28,6 +28,8 @@ struct CompareRequest {
   /// All of the command that repeats one pair of methods, but -o.
   std::function<std::string(const VolumeChoice&, const SurfaceChoice&)> command;
   Progress progress;  ///< may be empty
+  /// Also shows each image, as soon as it is there, by the stem of its file's name; may be empty.
+  std::function<void(const std::string&, const frame::FrameImages&)> show = {};
 };
 
 /// Called with a run as far as it is known, a view's number and the run's image of it.

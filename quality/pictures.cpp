@@ -38,35 +38,38 @@ std::map<std::string, std::string> metadata_of(const Making& making, const scene
   return metadata;
 }
 
-void write_frame(const std::filesystem::path& file, const frame::FrameImages& images,
-                 std::map<std::string, std::string> metadata) {
-  if (const std::string skipped = skipped_lights(images); !skipped.empty())
-    metadata["airlight.skipped-lights"] = skipped;
-  ImageView view{.size = images.size, .channels = {}, .metadata = metadata};
+FrameLayers::FrameLayers(const frame::FrameImages& images) {
   const auto add = [&](const std::string& prefix, const std::vector<glm::vec3>& values) {
     for (int channel = 0; channel < 3; ++channel)
-      view.channels[prefix + "RGB"[channel]] = {&values[0][channel], 3};
+      channels_[prefix + "RGB"[channel]] = {&values[0][channel], 3};
   };
   add("", images.radiance);
   add("airlight.", images.airlight);
-  view.channels["distance.Y"] = {images.distance.data(), 1};
+  channels_["distance.Y"] = {images.distance.data(), 1};
   for (std::size_t light = 0; light < images.airlight_of_light.size(); ++light) {
     add(fmt::format("airlight.{}.", images.lights[light]), images.airlight_of_light[light]);
-    view.channels[fmt::format("surface.{}.Y", images.lights[light])] = {images.visibility[light].data(), 1};
+    channels_[fmt::format("surface.{}.Y", images.lights[light])] = {images.visibility[light].data(), 1};
     if (!images.transmittance.empty())
       add(fmt::format("surface.{}.", images.lights[light]), images.transmittance[light]);
   }
   if (images.transmittance.size() == 1) add("surface.", images.transmittance[0]);
-  std::vector<float> mean;
   if (images.visibility.size() > 1) {
-    mean.resize(images.distance.size());
+    mean_visibility_.resize(images.distance.size());
     for (const std::vector<float>& of_light : images.visibility) {
-      for (std::size_t i = 0; i < mean.size(); ++i)
-        mean[i] += of_light[i] / static_cast<float>(images.visibility.size());
+      for (std::size_t i = 0; i < mean_visibility_.size(); ++i)
+        mean_visibility_[i] += of_light[i] / static_cast<float>(images.visibility.size());
     }
   }
-  view.channels["surface.Y"] = {mean.empty() ? images.visibility[0].data() : mean.data(), 1};
-  write_exr(file, view);
+  channels_["surface.Y"] = {mean_visibility_.empty() ? images.visibility[0].data() : mean_visibility_.data(),
+                            1};
+}
+
+void write_frame(const std::filesystem::path& file, const frame::FrameImages& images,
+                 std::map<std::string, std::string> metadata) {
+  if (const std::string skipped = skipped_lights(images); !skipped.empty())
+    metadata["airlight.skipped-lights"] = skipped;
+  const FrameLayers layers(images);
+  write_exr(file, {.size = images.size, .channels = layers.channels(), .metadata = metadata});
 }
 
 float automatic_exposure(const std::vector<glm::vec3>& radiance) {

@@ -33,10 +33,21 @@ struct Making {
 /// made by, each under "airlight." and the name of its option.
 std::map<std::string, std::string> metadata_of(const Making& making, const scene::View& view);
 
-/// Writes a frame as an EXR image with the channels R,G,B; airlight.R,G,B; surface.Y, the mean over lights;
-/// distance.Y; of a method that shows what light passes also surface.R,G,B. Where there are several lights,
-/// each has its airlight.NAME.R,G,B and surface.NAME.Y, or surface.NAME.R,G,B, too; those skipped are named
-/// in the metadata.
+/// The layers of a frame's image: R,G,B; airlight.R,G,B; surface.Y, the mean over lights; distance.Y; of a
+/// method that shows what light passes also surface.R,G,B. Where there are several lights, each has its
+/// airlight.NAME.R,G,B and surface.NAME.Y, or surface.NAME.R,G,B, too.
+class FrameLayers {
+ public:
+  /// @param images has to stay
+  explicit FrameLayers(const frame::FrameImages& images);
+  const std::map<std::string, ImageView::Channel>& channels() const { return channels_; }
+
+ private:
+  std::map<std::string, ImageView::Channel> channels_;
+  std::vector<float> mean_visibility_;  ///< of several lights
+};
+
+/// Writes a frame's layers as an EXR image; lights that were skipped are named in the metadata.
 /// @throws as write_exr
 void write_frame(const std::filesystem::path& file, const frame::FrameImages& images,
                  std::map<std::string, std::string> metadata);

@@ -10,6 +10,7 @@
 #include <random>
 #include <set>
 #include <string>
+#include <thread>
 #include <tuple>
 #include <vector>
 
@@ -28,6 +29,7 @@
 #include "scene/view_fields.h"
 #include "support/models.h"
 #include "support/paths.h"
+#include "support/tev_listener.h"
 
 namespace airlight {
 namespace {
@@ -37,6 +39,7 @@ using quality::Image;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::StartsWith;
 using tests::Json;
 using Words = std::vector<std::string>;
@@ -321,6 +324,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Misuse{{"render", "cornell", "--quiet", "--quiet"}, "--quiet: it is given twice"},
                     Misuse{{"-oy.exr"}, "-o: it is given twice"}, Misuse{{"--quiet=no"}, "takes no value"},
                     Misuse{{"--fov"}, "its DEG is missing"},
+                    Misuse{{"--tev=nowhere"}, "--tev: 'nowhere' is not HOST:PORT"},
                     Misuse{{"compare", "cornell", "--max-error=-1"}, "--max-error"},
                     Misuse{{"compare", "cornell", "--max-error", "nan"}, "--max-error"},
                     Misuse{{"compare", "cornell", "--max-error", "1", "--volume", "none"}, "--max-error"},
@@ -1369,6 +1373,22 @@ TEST_F(Compare, DarkReferenceGivesNoRelativeError) {
 }
 
 /// A closed box about the origin, 2 m wide.
+TEST_F(Compare, ShowsImagesInATevAsTheyAreRendered) {
+  tests::TevListener tev;
+  std::thread listening([&] { tev.listen_to_all(); });
+  const Json results = compare({"--volume", "vsv", "--tev=" + tev.address});
+  listening.join();
+  ASSERT_EQ(tev.shown.size(), 2u);
+  for (const std::string& name :
+       {std::string("reference"), results.at("runs")[0].at("name").get<std::string>()}) {
+    const Image image = quality::read_exr(file("out/" + name + ".exr"));
+    const auto& shown = tev.shown.at(name).channels;
+    ASSERT_EQ(shown.size(), image.channels.size());
+    for (const auto& [channel, values] : image.channels) EXPECT_EQ(shown.at(channel), values) << channel;
+  }
+  EXPECT_THAT(results.at("runs")[0].at("command").get<std::string>(), Not(HasSubstr("tev")));
+}
+
 class Black : public CommandLine {
  protected:
   void SetUp() override {
