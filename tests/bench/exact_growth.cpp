@@ -8,6 +8,7 @@
 // - `strip`, `strip-in-order`: triangles side by side around the light, each of which has all others outside
 //   of two of its planes, inserted in random order and in theirs (Gerhards et al. 2015, Fig. 4 a);
 // - `star`: slivers through one point, of which each intersects the planes of all others (Fig. 4 b).
+// What the driver has no room for is said, and the other methods go on.
 // With `--check` every answer is compared with `brute`'s.
 #include <algorithm>
 #include <chrono>
@@ -30,6 +31,7 @@
 #include "quality/statistics.h"
 #include "report.h"
 #include "scene/builtin.h"
+#include "scene/error.h"
 #include "scene/parallel.h"
 #include "support/scenes.h"
 #include "surface_shadows/brute.h"
@@ -267,16 +269,28 @@ void run(const std::vector<std::string>& words) {
                         *std::max_element(tree.nodes.begin(), tree.nodes.end()), a_pixel("surface_triangles"),
                         bytes));
     };
-    bench::Counted<surface_shadows::Psv> psv(made.options);
-    measure_tree("psv", psv);
-    bench::Counted<surface_shadows::MetricTree> tree(surface_shadows::MetricTreeOptions{.cluster = cluster});
-    gpu::StageTimer once(&context);
-    draw(frame, made.view, tree, once);
-    measure_tree("metric-tree", tree);
-    print("  clusters", once.milliseconds().at("triangle_clusters"), 0.0,
-          fmt::format("{} of {:.2f} triangles, {:.1f} % capsules", tree.cluster_count(),
-                      static_cast<double>(made.geometry.triangles.size()) / tree.cluster_count(),
-                      100.0 * tree.capsule_share()));
+    const auto or_limit = [&](const std::string& method, const std::function<void()>& measure) {
+      try {
+        measure();
+      } catch (const scene::Error& limit) {
+        fmt::print("{:<16} {:>10} {:<12} {}\n", name, made.geometry.triangles.size(), method, limit.what());
+      }
+    };
+    or_limit("psv", [&] {
+      bench::Counted<surface_shadows::Psv> psv(made.options);
+      measure_tree("psv", psv);
+    });
+    or_limit("metric-tree", [&] {
+      bench::Counted<surface_shadows::MetricTree> tree(
+          surface_shadows::MetricTreeOptions{.cluster = cluster});
+      gpu::StageTimer once(&context);
+      draw(frame, made.view, tree, once);
+      measure_tree("metric-tree", tree);
+      print("  clusters", once.milliseconds().at("triangle_clusters"), 0.0,
+            fmt::format("{} of {:.2f} triangles, {:.1f} % capsules", tree.cluster_count(),
+                        static_cast<double>(made.geometry.triangles.size()) / tree.cluster_count(),
+                        100.0 * tree.capsule_share()));
+    });
 
     surface_shadows::ShadowMapLookup shadow_map;
     const auto by_map = stages_of(context, frame, made.view, shadow_map);
