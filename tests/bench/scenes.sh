@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The figures of README.md and docs/figures.md:
-# `tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|quadrature|lights|curves|cost|leaks|causes|path|rivals|rows|flicker|bits-or-tree|trees|surfaces [OUT]`.
+# `tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|quadrature|lights|curves|cost|leaks|causes|path|rivals|rows|flicker|bits-or-tree|trees|surfaces|charts|tuned [OUT]`.
 # The paper's Tables 2 to 4 and the bandwidth: build/release/tests/bench/airlight_tables, after ./test.
 #
 # truth     the exact reference against itself refined, against rays, 256×256 and 512×512 pixels
@@ -22,6 +22,8 @@
 # bits-or-tree  vsv by bits and by the tree, over the counts of φ, 512×512: a sweep each
 # trees         tree-march against march and vsv, 512×512, and in coloured light, 256×144: sweeps
 # surfaces      every surface method, 512×512: time, bytes, wrong and undecided pixels
+# charts        every method at 70 settings in all, 512×512, five scenes: sweeps, and a page each
+# tuned         `airlight tune` against the sweeps of the same settings, those five scenes and five more, 512×512
 # The models are not part of the project: AIRLIGHT_SHARED is the folder that holds scenes/ (default ../shared).
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -39,6 +41,14 @@ declare -A view=(
     --intensity 1500 --sigma-s 0.03"
   [toroid]=toroid
   [chapel]=chapel
+  [bunny_closed]="$scenes/bunny_closed_144k.glb --sigma-s 0.3 --intensity 5 --eye 0.3,1.2,3.2 --target 0,0.8,0 --fov 45
+    --light-position=-0.7,1.7,-1.2"
+  [lucy]="$scenes/lucy_100k.glb --sigma-s 0.3 --intensity 5 --eye 0.7,0.4,2.6 --target 0.7,0.2,0 --fov 50
+    --light-position=0.45,0.9,-0.5"
+  [staircase]="$scenes/spiral_staircase_15k.glb --eye 2.2,2.2,3.2 --target 0,1.6,0 --fov 50 --light-position=-0.5,3.2,-1.2
+    --intensity 20 --sigma-s 0.2"
+  [house]="$scenes/small_house_146k.glb --eye 8,1.6,4 --target=-2,1.3,0 --fov 65 --light-position 0,2.6,0 --intensity 60
+    --sigma-s 0.06"
   [sun_sponza]="$scenes/sponza_262k.glb --eye=-12,3,-0.5 --target 0,5,0 --fov 60 --sun 0.35,1,0.15 --irradiance 10
     --fog-top 16 --sigma-s 0.04 --sigma-a 0.01"
   [sun_court]="$scenes/sponza_262k.glb --eye=-10,2,0.5 --target 0,6,0 --fov 60 --sun 0.9,0.6,0.05 --irradiance 10
@@ -64,6 +74,12 @@ sweep() { # SCENE OPTIONS...
   # shellcheck disable=SC2086
   ./run sweep ${view[$scene]} --cache "$out/truth" "$@"
 }
+# What a user might choose from, the paper's grid among it.
+every_setting='vsv:alpha={128,256}:theta={512,1024,2048}:phi={128,256,512,1024},vsv:alpha=512:theta=2048:phi=512'
+every_setting+=',vsv:where={half,quarter,epipolar}:phi={256,512},vsv:query=tree:phi={256,512,1024,2048}'
+every_setting+=',vsv:integral={riemann,quadrature,factored},vsv:populate={conservative,screen-space}'
+every_setting+=',march:steps={8,16,32,64,128,256}:jitter={off,gathered},march:where={half,quarter,epipolar}:steps={32,128}'
+every_setting+=',march:steps={32,128}:spacing=angle:look-up=rows,froxel:tile={4,8,16}:samples={1,4}'
 march=reference-march:rays=single,reference-march:rays=packet
 case ${1:-} in
   truth)
@@ -174,12 +190,7 @@ case ${1:-} in
   leaks)
     volumes=vsv,vsv:populate=conservative,vsv:populate=screen-space
     volumes+=,vsv:populate=screen-space:alpha=2048,vsv:populate=conservative:alpha=1024:theta=4096:phi=1024
-    bunny="--sigma-s 0.3 --intensity 5 --eye 0.3,1.2,3.2 --target 0,0.8,0 --fov 45 --light-position=-0.7,1.7,-1.2"
-    view[bunny_closed]="$scenes/bunny_closed_144k.glb $bunny"
-    view[bunny_holes]="$scenes/bunny_holes_69k.glb $bunny"
-    view[lucy]="$scenes/lucy_100k.glb --sigma-s 0.3 --intensity 5 --eye 0.7,0.4,2.6 --target 0.7,0.2,0 --fov 50
-      --light-position=0.45,0.9,-0.5"
-    view[toroid]=toroid
+    view[bunny_holes]="${view[bunny_closed]/bunny_closed_144k/bunny_holes_69k}"
     view[toroid_hole]=assets/toroid_hole.toml
     for scene in toroid toroid_hole bunny_closed lucy bunny_holes sponza; do
       compare "$scene" --size 512x512 --shadow-map 2048 -o "$out/leaks_$scene" --frames 1 \
@@ -249,8 +260,27 @@ case ${1:-} in
         --surface shadow-map,psv,psv:cull=auto,metric-tree,metric-tree:cull=auto,reference
     done
     ;;
+  charts)
+    for scene in window sponza fence maple sun_sponza; do
+      sweep "$scene" --size 512x512 --surface none --frames 6 -o "$out/chart_$scene" --quiet \
+        --volume "$every_setting,tree-march:tree={psv,metric-tree}:where=epipolar:steps={16,64}"
+      ./run front "$out/chart_$scene"
+      ./run report "$out/chart_$scene" -o "$out/chart_$scene.html"
+    done
+    ;;
+  tuned)
+    for scene in window sponza fence maple sun_sponza staircase house bunny_closed lucy arboretum; do
+      sweep "$scene" --size 512x512 --surface none --frames 6 -o "$out/tuned_$scene" --quiet --volume "$every_setting"
+      for error in 0.02 0.01 0.005; do
+        # shellcheck disable=SC2086
+        ./run tune ${view[$scene]} --size 512x512 --surface none --shadow-map 2048 --volume "$every_setting" --quiet \
+          --max-error $error --json "$out/tuned_$scene/$error.json" >/dev/null || true
+      done
+      tests/bench/tuned.py "$out/tuned_$scene"
+    done
+    ;;
   *)
-    echo "usage: tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|quadrature|lights|curves|cost|leaks|causes|path|rivals|rows|flicker|bits-or-tree|trees|surfaces [OUT]" >&2
+    echo "usage: tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|quadrature|lights|curves|cost|leaks|causes|path|rivals|rows|flicker|bits-or-tree|trees|surfaces|charts|tuned [OUT]" >&2
     exit 2
     ;;
 esac
