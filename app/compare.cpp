@@ -11,6 +11,8 @@
 #include "app/commands.h"
 #include "app/memory.h"
 #include "app/output.h"
+#include "app/settings.h"
+#include "quality/first_look.h"
 #include "quality/report.h"
 #include "scene/numbers.h"
 
@@ -104,7 +106,7 @@ void compare(const Options& options) {
       throw Error(ExitCode::usage, "--max-undecided", fmt::format("'{}' is not between 0 and 1", *text));
   }
   Subject subject = make_subject(options);
-  fit_to_view(volumes, surfaces, subject);
+  const AutomaticCounts automatic = fit_to_view(volumes, surfaces, subject);
   const std::filesystem::path folder = output_folder(options);
   require_folder(folder);
   const auto json = options.get("json");
@@ -118,9 +120,13 @@ void compare(const Options& options) {
                   .triangles = subject.scene.geometry.triangles.size(),
                   .looks = bytes_of_looks(subject.scene.geometry),
                   .scenes = subject.scenes()});
+  const bool has_automatic_counts =
+      std::any_of(automatic.begin(), automatic.end(), [](const auto& names) { return !names.empty(); });
   const auto command = [&](const quality::VolumeChoice& volume, const quality::SurfaceChoice& surface) {
     // What is asked of all pairs is left out.
-    return command_of_pair(options, volume, surface, {"json", "max-error", "max-undecided"});
+    std::vector<std::string> without = {"json", "max-undecided"};
+    if (!has_automatic_counts) without.emplace_back("max-error");
+    return command_of_pair(options, volume, surface, without);
   };
   std::function<void(const std::string&, const frame::FrameImages&)> show;
   if (tev) show = [&](const std::string& name, const frame::FrameImages& images) { tev->show(name, images); };
@@ -128,6 +134,8 @@ void compare(const Options& options) {
   {
     ProgressLine progress(options.quiet);
     gpu::Context context;
+    take_first_looks(context, subject, volumes, automatic, shadow_map,
+                     limit.value_or(quality::k_first_look_error), progress.follower());
     comparison = quality::compare(context, {.scene_name = options.scene,
                                             .scene = subject.scene,
                                             .view = subject.view,

@@ -128,6 +128,8 @@ int run(int argc, char** argv) {
   add_option(render_command,
              {"video", "FILE.mp4", "along a path, a video of the images' previews too, by ffmpeg"});
 
+  add_option(render_command,
+             {"max-error", "X", "rrmse that counts which are auto are to be enough for (default: 0.01)"});
   add_tev(render_command, options);
 
   CLI::App& view_command =
@@ -156,8 +158,10 @@ int run(int argc, char** argv) {
       compare_command,
       {"frames", "N",
        "frames timed a run, after warm-up (default: 5); along a path, how often it is timed (default: 1)"});
-  add_option(compare_command,
-             {"max-error", "X", "exit with 1 where a method's airlight has an rrmse above this, as in 0.02"});
+  add_option(compare_command, {"max-error", "X",
+                               "exit with 1 where a method's airlight has an rrmse above this, as in 0.02; "
+                               "counts which are auto are to be "
+                               "enough for it (default for those: 0.01)"});
   add_option(compare_command,
              {"max-undecided", "X",
               "exit with 1 where more than this part of a run's surface pixels is undecided, as in 0.01"});

@@ -11,6 +11,7 @@
 
 #include "app/memory.h"
 #include "frame/option.h"
+#include "quality/first_look.h"
 #include "quality/light_texture.h"
 #include "quality/results.h"
 #include "scene/builtin.h"
@@ -263,11 +264,14 @@ void take_usual_methods(const Options& options, const Subject& subject,
   require_read(options, volumes, surfaces);
 }
 
-void fit_to_view(std::vector<quality::VolumeChoice>& volumes, std::vector<quality::SurfaceChoice>& surfaces,
-                 Subject& subject) {
+AutomaticCounts fit_to_view(std::vector<quality::VolumeChoice>& volumes,
+                            std::vector<quality::SurfaceChoice>& surfaces, Subject& subject) {
+  AutomaticCounts automatic;
+  for (const quality::VolumeChoice& volume : volumes) automatic.push_back(quality::automatic_counts(volume));
   for (quality::VolumeChoice& volume : volumes) volume.fit(subject.views());
   for (quality::SurfaceChoice& surface : surfaces) surface.fit(subject.views());
   quality::warn_of_geometry(volumes, surfaces, subject.scene);
+  return automatic;
 }
 
 std::string command_of_pair(const Options& options, const quality::VolumeChoice& volume,

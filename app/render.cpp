@@ -12,11 +12,14 @@
 #include "app/commands.h"
 #include "app/memory.h"
 #include "app/output.h"
+#include "app/settings.h"
 #include "frame/frame.h"
 #include "quality/darkness.h"
+#include "quality/first_look.h"
 #include "quality/pictures.h"
 #include "quality/results.h"
 #include "quality/traced.h"
+#include "scene/numbers.h"
 
 namespace airlight::app {
 namespace {
@@ -110,6 +113,18 @@ void write_video(const std::filesystem::path& video, const std::filesystem::path
     throw Error(ExitCode::bad_file, video.string(), "ffmpeg could not write it", "its own words stand above");
 }
 
+/// The rrmse that automatic counts are to be enough for.
+double automatic_limit(const Options& options, const AutomaticCounts& automatic) {
+  const auto text = options.get("max-error");
+  if (!text) return quality::k_first_look_error;
+  if (automatic[0].empty())
+    throw Error(ExitCode::usage, "--max-error", "no count of the method is auto",
+                "write auto for some, as in vsv:alpha=auto:theta=auto:phi=auto");
+  const double limit = scene::parse_number("--max-error", *text);
+  if (!(limit > 0.0)) throw Error(ExitCode::usage, "--max-error", fmt::format("'{}' is not above 0", *text));
+  return limit;
+}
+
 }  // namespace
 
 void render(const Options& options) {
@@ -134,7 +149,8 @@ void render(const Options& options) {
   Subject subject = make_subject(options);
   take_usual_methods(options, subject, volumes, surfaces, shadow_map);
   require_one();
-  fit_to_view(volumes, surfaces, subject);
+  const AutomaticCounts automatic = fit_to_view(volumes, surfaces, subject);
+  const double limit = automatic_limit(options, automatic);
   const quality::VolumeChoice& volume = volumes[0];
   const quality::SurfaceChoice& surface = surfaces[0];
   const std::optional<std::filesystem::path> video = video_of(options);
@@ -168,6 +184,7 @@ void render(const Options& options) {
     ProgressLine progress(options.quiet);
     const quality::Progress follow = progress.follower();
     gpu::Context context;
+    take_first_looks(context, subject, volumes, automatic, shadow_map, limit, follow);
     images.renderer = context.device().renderer;
     frame::Frame frame(context, subject.scene.geometry, shadow_map, {},
                        {options.get("cache").value_or(""), follow});

@@ -10,6 +10,7 @@
 #include "app/output.h"
 #include "app/settings.h"
 #include "quality/axes.h"
+#include "quality/first_look.h"
 #include "scene/numbers.h"
 
 namespace airlight::app {
@@ -64,7 +65,7 @@ void sweep(const Options& options) {
   std::size_t refused = 0;
   if (options.all) volumes = every_volume(options, subject, k_most_of_all, refused);
   require_read(options, volumes, surfaces);
-  fit_to_view(volumes, surfaces, subject);
+  const AutomaticCounts automatic = fit_to_view(volumes, surfaces, subject);
   quality::VolumeChoice baseline_volume = baselines[0];
   baseline_volume.fit(subject.views());
 
@@ -98,6 +99,8 @@ void sweep(const Options& options) {
   {
     ProgressLine progress(options.quiet);
     gpu::Context context;
+    take_first_looks(context, subject, volumes, automatic, shadow_maps[0], quality::k_first_look_error,
+                     progress.follower());
     count = quality::sweep(
         context, file,
         {.subject = swept,

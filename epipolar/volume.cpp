@@ -131,9 +131,10 @@ std::vector<frame::Option> volume_options() {
            .sweep = {"frame", "full"}},
           {{"frame", "what is seen"}, {"alpha-phi", "the paper's: all theta"}, {"full"}},
           &VolumeOptions::ranges)};
-  const frame::Counts any = {.most = k_largest_count, .automatic = "a pixel apart"};
+  const frame::Counts any = {.most = k_largest_count,
+                             .automatic = "at most a pixel apart, fewer where the scene needs no more"};
   const frame::Counts whole_texels = {
-      .least = 128, .most = k_largest_count, .multiple_of = 128, .automatic = "512"};
+      .least = 128, .most = k_largest_count, .multiple_of = 128, .automatic = "what the scene needs"};
   for (Option& count : frame::options_of(
            &VolumeOptions::resolution, {frame::count_option({.name = "alpha",
                                        .meaning = "cells of the grid along the view angle",

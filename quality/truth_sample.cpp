@@ -28,6 +28,15 @@ void for_each_pixel(glm::ivec2 size, glm::ivec2 tile, const Function& f) {
 
 }  // namespace
 
+std::vector<std::size_t> views_to_look_at(std::size_t count) {
+  constexpr std::size_t k_most = 6;
+  std::vector<std::size_t> numbers;
+  const std::size_t wanted = std::min(count, k_most);
+  for (std::size_t i = 0; i < wanted; ++i)
+    numbers.push_back(wanted == 1 ? 0 : i * (count - 1) / (wanted - 1));
+  return numbers;
+}
+
 TileDraw::TileDraw(glm::ivec2 size, std::span<const glm::vec3> a, std::span<const glm::vec3> b)
     : columns_rows_((size + k_tile - 1) / k_tile) {
   double sum = 0.0;

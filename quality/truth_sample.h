@@ -12,6 +12,9 @@
 
 namespace airlight::quality {
 
+/// Of a path with so many views the numbers of those that stand for all: up to six, evenly spread.
+std::vector<std::size_t> views_to_look_at(std::size_t count);
+
 /// A tile of an image, drawn with a known probability.
 struct DrawnTile {
   glm::ivec2 tile;  ///< its column and row

@@ -19,18 +19,8 @@
 namespace airlight::quality {
 namespace {
 
-constexpr std::size_t k_views = 3;  ///< of a path that settings are chosen by, and as many to judge by
 constexpr std::size_t k_finalists = 6;
 constexpr double k_nearly = 1.3;  ///< what is timed again may take so much more than the quickest
-
-/// Of a path the numbers of up to 2 · k_views views, evenly spread: every other one is for judging.
-std::vector<std::size_t> looked_at(std::size_t count) {
-  std::vector<std::size_t> numbers;
-  const std::size_t wanted = std::min(count, 2 * k_views);
-  for (std::size_t i = 0; i < wanted; ++i)
-    numbers.push_back(wanted == 1 ? 0 : i * (count - 1) / (wanted - 1));
-  return numbers;
-}
 
 class Tuner {
  public:
@@ -82,8 +72,10 @@ class Tuner {
 
   void choose_views() {
     const auto& views = request_.subject.views;
-    const std::vector<std::size_t> numbers = looked_at(views.size());
-    // Two ways to show each view, as different as the settings are, tell where errors may lie.
+    const std::vector<std::size_t> numbers = views_to_look_at(views.size());
+    // Every other one of a path's is for judging. Two ways to show each, as different as the settings are,
+    // tell where errors may lie.
+    //, as different as the settings are, tell where errors may lie.
     const Setting &first = request_.settings.front(), &last = request_.settings.back();
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       const scene::View& view = views[numbers[i]];
