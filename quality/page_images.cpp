@@ -176,6 +176,12 @@ PageImages page_images(const JoinedRuns& joined, std::size_t whole, std::size_t 
   const float unit = static_cast<float>(mean) > 0.0f ? static_cast<float>(mean) : 1.0f;
   const double floor = joined.comparison.at("reference").value("floor", 0.0);
 
+  const auto flip_of = [&](const Loaded& image) -> std::optional<GreyPixels> {
+    std::vector<float> map =
+        hdr_flip_map(image.airlight.values, truth.airlight.values, truth.airlight.size, floor);
+    if (map.empty()) return std::nullopt;
+    return GreyPixels{truth.airlight.size, std::move(map)};
+  };
   std::vector<Whole> wholes;
   std::vector<std::size_t> others;
   GreyPixels off{truth.airlight.size, std::vector<float>(truth.airlight.values.size(), 0.0f)};
@@ -189,9 +195,7 @@ PageImages page_images(const JoinedRuns& joined, std::size_t whole, std::size_t 
     Whole& kept = wholes.emplace_back(Whole{i, load(stem), {}});
     require_size(stem, kept.image, truth);
     add_error(off, kept.image, truth);
-    std::vector<float> flip =
-        hdr_flip_map(kept.image.airlight.values, truth.airlight.values, truth.airlight.size, floor);
-    if (!flip.empty()) kept.flip = {truth.airlight.size, std::move(flip)};
+    kept.flip = flip_of(kept.image);
   }
   const glm::ivec2 size = truth.airlight.size;
   const int side = std::clamp(std::min(size.x, size.y) / 4, k_smallest_crop, k_largest_crop);
@@ -205,13 +209,14 @@ PageImages page_images(const JoinedRuns& joined, std::size_t whole, std::size_t 
     const Loaded image = load(joined.runs[i].image);
     require_size(joined.runs[i].image, image, truth);
     Elements next = elements;
-    Json parts = next.add_parts(image.airlight, unit, crops);
+    Json source = {{"crops", next.add_parts(image.airlight, unit, crops)}};
+    if (const auto flip = flip_of(image)) source["flip_crops"] = next.add_parts(*flip, crops);
     if (next.html().size() > budget / 2) {
       ++without;
       continue;
     }
     elements = std::move(next);
-    runs[fmt::format("{}", i)] = {{"crops", std::move(parts)}};
+    runs[fmt::format("{}", i)] = std::move(source);
   }
   for (const int factor : k_factors) {
     Elements all = elements;

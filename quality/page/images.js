@@ -69,8 +69,8 @@ class Source {
     return Boolean(region < 0 ? this.json.whole : this.json.crops || this.json.whole);
   }
 
-  has_flip() {
-    return Boolean(this.json.flip);
+  has_flip(region) {
+    return Boolean(this.json.flip || (region >= 0 && this.json.flip_crops));
   }
 
   radiance(region) {

@@ -122,7 +122,7 @@ class Viewer {
   map_of(index) {
     const { map } = this.state;
     if (index === 0 || map === "image") return "image";
-    return map === "flip" && !this.sources[index].has_flip() ? "none" : map;
+    return map === "flip" && !this.sources[index].has_flip(this.state.region) ? "none" : map;
   }
 
   async load(refit) {
@@ -145,7 +145,7 @@ class Viewer {
     const notes = [];
     for (const index of missing) {
       const source = this.sources[index];
-      notes.push(source.has(region) ? `${source.name}: ꟻLIP is kept of whole images alone.` : `${source.name}: kept as crops alone; choose one as part.`);
+      notes.push(source.has(region) ? `${source.name}: there is no ꟻLIP against a dark truth.` : `${source.name}: kept as crops alone; choose one as part.`);
     }
     if (region < 0 && data.images.reduced > 1) notes.push(`Each pixel is the mean of ${data.images.reduced} × ${data.images.reduced}; the crops have all.`);
     if (data.images.without) notes.push(`Without images for want of room: ${data.images.without} runs.`);
@@ -253,6 +253,7 @@ class Viewer {
     requestAnimationFrame(() => {
       this.is_waiting = false;
       this.paint_now();
+      if (!performance.getEntriesByName("first picture").length) performance.mark("first picture");
       this.place.setAttribute("aria-busy", String(this.turn !== this.loaded));
     });
   }

@@ -131,6 +131,7 @@ async function walk() {
     if (box.width && box.right > width + 1 && !element.closest("svg")) expect(false, `beyond the side: ${element.tagName} ${element.className} ${element.textContent.slice(0, 40)}`);
   }
   for (const each of document.querySelectorAll("table")) expect(each.scrollWidth <= each.clientWidth + 1, `the table ${each.id} scrolls`);
+  expect(performance.getEntriesByName("first picture").length === 1, "the first picture is not marked");
   expect(performance.getEntriesByType("resource").length === 0, "something was asked for");
 }
 

@@ -89,6 +89,7 @@ TEST_F(ImagesOfAPage, AreWholeForTheFirstRunsAndCropsForTheOthers) {
     EXPECT_FALSE(runs[run].contains("whole"));
     EXPECT_EQ(runs[run]["crops"].size(), 3u);
     EXPECT_EQ(runs[run]["crops"][0]["width"], 16);
+    EXPECT_EQ(runs[run]["flip_crops"].size(), 3u);
   }
   for (const auto& [run, source] : runs.items())
     for (const auto& [kind, kept] : source.items())
