@@ -22,8 +22,8 @@
 # bits-or-tree  vsv by bits and by the tree, over the counts of φ, 512×512: a sweep each
 # trees         tree-march against march and vsv, 512×512, and in coloured light, 256×144: sweeps
 # surfaces      every surface method, 512×512: time, bytes, wrong and undecided pixels
-# charts        every method at 70 settings in all, 512×512, five scenes: sweeps, and a page each
-# tuned         `airlight tune` against the sweeps of the same settings, those five scenes and five more, 512×512
+# charts        every method at 68 settings in all, 512×512, five scenes: sweeps, and a page each
+# tuned         `airlight tune` against sweeps of the same 66 settings, those five scenes and five more, 256×256
 # The models are not part of the project: AIRLIGHT_SHARED is the folder that holds scenes/ (default ../shared).
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -263,17 +263,17 @@ case ${1:-} in
   charts)
     for scene in window sponza fence maple sun_sponza; do
       sweep "$scene" --size 512x512 --surface none --frames 6 -o "$out/chart_$scene" --quiet \
-        --volume "$every_setting,tree-march:tree={psv,metric-tree}:where=epipolar:steps={16,64}"
+        --volume "$every_setting,tree-march:tree={psv,metric-tree}:where=epipolar:steps=16"
       ./run front "$out/chart_$scene"
       ./run report "$out/chart_$scene" -o "$out/chart_$scene.html"
     done
     ;;
   tuned)
     for scene in window sponza fence maple sun_sponza staircase house bunny_closed lucy arboretum; do
-      sweep "$scene" --size 512x512 --surface none --frames 6 -o "$out/tuned_$scene" --quiet --volume "$every_setting"
+      sweep "$scene" --size 256x256 --surface none --frames 6 -o "$out/tuned_$scene" --quiet --volume "$every_setting"
       for error in 0.02 0.01 0.005; do
         # shellcheck disable=SC2086
-        ./run tune ${view[$scene]} --size 512x512 --surface none --shadow-map 2048 --volume "$every_setting" --quiet \
+        ./run tune ${view[$scene]} --size 256x256 --surface none --shadow-map 2048 --volume "$every_setting" --quiet \
           --max-error $error --json "$out/tuned_$scene/$error.json" >/dev/null || true
       done
       tests/bench/tuned.py "$out/tuned_$scene"
