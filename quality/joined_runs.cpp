@@ -35,6 +35,11 @@ Figures figures_of(const Json& run) {
   figures.p99 = mean("p99", "/error/airlight/p99");
   figures.flip = mean("flip", "/error/airlight/flip");
   figures.flicker = mean_of(over_views(run, "flicker"));
+  const double pixels = mean("pixels", "/error/surface/pixels");
+  if (pixels > 0.0) {
+    figures.wrong = mean("wrong_pixels", "/error/surface/wrong_pixels") / pixels;
+    figures.pixel = 1.0 / pixels;
+  }
   for (const auto& [name, bytes] : run.at("bytes").items()) figures.bytes += bytes.get<double>();
   return figures;
 }

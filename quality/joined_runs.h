@@ -23,6 +23,7 @@ struct Figures {
   double rrmse = k_none;                           ///< of the airlight where both see the same surface
   double p99 = k_none, flip = k_none;              ///< of the airlight
   double flicker = k_none;                         ///< along a path
+  double wrong = k_none, pixel = k_none;           ///< wrong surface pixels, and one pixel, of all
   double bytes = 0.0;                              ///< of GPU memory, scene and shadow map included
 };
 
@@ -35,9 +36,6 @@ struct JoinedRun {
   std::size_t device = 0;  ///< of JoinedRuns::devices
   Figures figures;
   std::filesystem::path image;  ///< folder and stem of its images, of `compare`; empty of a sweep's
-
-  /// The airlight's, without options.
-  std::string method() const { return volume.substr(0, volume.find(':')); }
 };
 
 /// Runs of one scene, seen by the same views.

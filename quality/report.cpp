@@ -44,14 +44,25 @@ Json figures_json(const Figures& figures) {
           {"p99", number_json(figures.p99)},
           {"flip", number_json(figures.flip)},
           {"flicker", number_json(figures.flicker)},
+          {"wrong", number_json(figures.wrong)},
           {"bytes", figures.bytes}};
 }
 
+/// Whether the runs differ in their surface shadows alone, so that those are what they are told apart by.
+bool compares_surfaces(const JoinedRuns& joined) {
+  const auto has_first = [&](const std::string JoinedRun::*spec) {
+    return [&joined, spec](const JoinedRun& run) { return run.*spec == joined.runs[0].*spec; };
+  };
+  return std::all_of(joined.runs.begin(), joined.runs.end(), has_first(&JoinedRun::volume)) &&
+         !std::all_of(joined.runs.begin(), joined.runs.end(), has_first(&JoinedRun::surface));
+}
+
 /// What the page's scripts read of a run.
-Json run_data(const JoinedRun& run) {
+Json run_data(const JoinedRun& run, bool is_of_surfaces) {
+  const std::string& spec = is_of_surfaces ? run.surface : run.volume;
   Json data = {{"volume", run.volume},
                {"surface", run.surface},
-               {"method", run.method()},
+               {"method", spec.substr(0, spec.find(':'))},
                {"device", run.device},
                {"figures", figures_json(run.figures)}};
   if (run.shadow_map) data["shadow_map"] = *run.shadow_map;
@@ -102,7 +113,10 @@ std::string page_of(const JoinedRuns& joined, const ReportOptions& options) {
     data["bound"] = joined.comparison.value(Json::json_pointer("/reference/bound"), Json());
     data["exposure"] = joined.comparison.value(Json::json_pointer("/exposure/value"), Json());
   }
-  for (const JoinedRun& run : joined.runs) data["runs"].push_back(run_data(run));
+  data["compares_surfaces"] = compares_surfaces(joined);
+  for (const JoinedRun& run : joined.runs)
+    data["runs"].push_back(run_data(run, data["compares_surfaces"].get<bool>()));
+  data["pixel"] = number_json(joined.runs[0].figures.pixel);
 
   std::string scripts;
   for (const std::string_view script : {k_format_js, k_chart_js, k_details_js, k_stages_js, k_along_js,

@@ -134,7 +134,8 @@ class Chart {
     const fill = (select, names) => {
       select.innerHTML = names.map((name) => `<option value="${name}">${escaped(with_unit(quantities[name]))}</option>`).join("");
     };
-    fill(this.form.y, ["rrmse", "flip", "p99", "flicker", "bytes"].filter(has));
+    const errors = ["rrmse", "flip", "p99", "flicker"];
+    fill(this.form.y, (data.compares_surfaces ? ["wrong", ...errors, "bytes"] : [...errors, "wrong", "bytes"]).filter(has));
     // Ratios to several baselines say nothing of each other.
     fill(this.form.x, ["ms", "ratio", "bytes"].filter((name) => has(name) && (name !== "ratio" || baselines.size === 1)));
     this.form.device.innerHTML = data.devices.map((name, i) => `<option value="${i}">${escaped(name)}</option>`).join("");
@@ -184,7 +185,7 @@ class Chart {
     if (focused !== undefined) this.group(focused)?.focus({ preventScroll: true });
     const notes = [];
     const y = quantities[this.choice().y];
-    if (points.some((point) => point.is_bound)) notes.push(`Hollow, with an arrow: an error not above the bound of the truth’s own, ${digits(y.bound * y.scale)} %.`);
+    if (points.some((point) => point.is_bound)) notes.push(`Hollow, with an arrow: not above ${y === quantities.wrong ? "one pixel" : "the bound of the truth’s own error"}, ${digits(y.bound * y.scale)} %.`);
     if (zero) notes.push(`${zero} without error, which a logarithmic axis cannot show.`);
     if (none) notes.push(`${none} without these figures.`);
     if (points.some((point) => point.x_low)) notes.push("Bars: intervals that hold the median at 95 % or more.");

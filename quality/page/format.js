@@ -25,6 +25,7 @@ const quantities = {
   flip: { label: "ꟻLIP", unit: "", scale: 1 },
   p99: { label: "p99", unit: "%", scale: 100 },
   flicker: { label: "flicker", unit: "%", scale: 100, bound: 2 * data.bound },
+  wrong: { label: "wrong surface pixels", unit: "%", scale: 100, bound: data.pixel },
 };
 
 function with_unit(quantity) {

@@ -96,7 +96,6 @@ TEST_F(Joined, HaveTheFiguresOfAComparison) {
   EXPECT_FALSE(joined.comparison.contains("runs"));
   ASSERT_EQ(joined.runs.size(), 1u);
   const JoinedRun& only = joined.runs[0];
-  EXPECT_EQ(only.method(), "vsv");
   EXPECT_EQ(only.image, folder_ / "a/vsv:alpha=64+shadow-map");
   EXPECT_EQ(only.shadow_map, 512);
   EXPECT_DOUBLE_EQ(only.figures.ms, 10.0);

@@ -86,6 +86,27 @@ TEST_F(Report, ShowsEachRunWithItsFiguresAndCommand) {
   EXPECT_TRUE(run["figures"]["ratio"].is_null());
 }
 
+TEST_F(Report, TellsRunsOfOneVolumeApartByTheirSurfaceShadow) {
+  Comparison comparison = one_run();
+  EXPECT_FALSE(data_of(page(comparison))["compares_surfaces"]);
+  quality::Run other = comparison.runs[0];
+  other.key = "2";
+  other.surface = "psv:cull=auto";
+  other.errors.surface.wrong_pixels = 0;
+  comparison.runs.push_back(other);
+  json data = data_of(page(comparison));
+  EXPECT_TRUE(data["compares_surfaces"]);
+  EXPECT_EQ(data["runs"][0]["method"], "shadow-map");
+  EXPECT_EQ(data["runs"][1]["method"], "psv");
+  EXPECT_NEAR(data["runs"][0]["figures"]["wrong"].get<double>(), 12.0 / 7654.0, 1e-8);
+  EXPECT_EQ(data["runs"][1]["figures"]["wrong"], 0.0);
+  EXPECT_NEAR(data["pixel"].get<double>(), 1.0 / 7654.0, 1e-8);
+  comparison.runs[1].volume = "march";
+  data = data_of(page(comparison));
+  EXPECT_FALSE(data["compares_surfaces"]);
+  EXPECT_EQ(data["runs"][1]["method"], "march");
+}
+
 TEST_F(Report, LeavesOutColumnsInWhichNothingStands) {
   Comparison comparison = one_run();
   EXPECT_THAT(page(comparison), Not(HasSubstr("M/s</span></th>")));
