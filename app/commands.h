@@ -33,6 +33,8 @@ void report(const Options& options);
 void image(const Options& options);
 
 void list_scenes();
-void print_info();
+
+/// Tells what a scene holds, or where none is named the driver and its limits.
+void info(const Options& options);
 
 }  // namespace airlight::app

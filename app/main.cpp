@@ -271,7 +271,12 @@ int run(int argc, char** argv) {
              {"json", "FILE", "of error: write it there too; - means standard output, instead of the lines"});
 
   CLI::App& scenes_command = *app.add_subcommand("scenes", "lists the built-in scenes");
-  CLI::App& info_command = *app.add_subcommand("info", "tells the driver and its limits");
+  CLI::App& info_command =
+      *app.add_subcommand("info", "tells what a scene holds, or without one the driver and its limits");
+  info_command
+      .add_option("SCENE", options.scene, "a built-in scene's name, a shot (.toml), or a model's file")
+      ->type_name("");
+  add_option(info_command, {"triangles", "N", "of a built-in scene whose number of them can be set"});
 
   try {
     options.given = read_words(app, argc, argv);
@@ -309,7 +314,7 @@ int run(int argc, char** argv) {
   } else if (scenes_command.parsed()) {
     list_scenes();
   } else if (info_command.parsed()) {
-    print_info();
+    info(options);
   }
   return 0;
 }

@@ -75,26 +75,6 @@ scene::Transmission transmission(const Options& options) {
       frame::parse_word("--occluders", options.get("occluders").value_or("material"), words));
 }
 
-scene::Scene load_scene(const Options& options) {
-  const std::string& name = options.scene;
-  const std::filesystem::path file(name);
-  const scene::Looks shown = looks(options);
-  const scene::BuiltinScene* builtin = scene::find_builtin(name);
-  std::optional<std::size_t> triangles;
-  if (const auto text = options.get("triangles")) {
-    triangles = static_cast<std::size_t>(scene::parse_count("--triangles", *text));
-    // A shot knows itself what it shows.
-    const std::string problem = is_shot(file) ? "" : scene::count_problem(builtin, name, *triangles);
-    if (!problem.empty()) throw usage("--triangles", problem);
-  }
-  if (builtin) return builtin->make(triangles, shown);
-  if (is_shot(file)) return scene::load_shot(file, triangles, quality::read_light_texture, shown);
-  if (std::error_code error; !file.has_extension() && !std::filesystem::exists(file, error)) {
-    throw Error(ExitCode::bad_file, name, "there is no such scene", scene_help());
-  }
-  return scene::import_scene(file, shown);
-}
-
 /// Of --ambient.
 constexpr std::string_view k_fitted = "auto";
 
@@ -178,6 +158,26 @@ std::string Options::command_line(std::span<const std::string> without) const {
   }
   if (debug) line += " --debug";
   return line;
+}
+
+scene::Scene load_scene(const Options& options) {
+  const std::string& name = options.scene;
+  const std::filesystem::path file(name);
+  const scene::Looks shown = looks(options);
+  const scene::BuiltinScene* builtin = scene::find_builtin(name);
+  std::optional<std::size_t> triangles;
+  if (const auto text = options.get("triangles")) {
+    triangles = static_cast<std::size_t>(scene::parse_count("--triangles", *text));
+    // A shot knows itself what it shows.
+    const std::string problem = is_shot(file) ? "" : scene::count_problem(builtin, name, *triangles);
+    if (!problem.empty()) throw usage("--triangles", problem);
+  }
+  if (builtin) return builtin->make(triangles, shown);
+  if (is_shot(file)) return scene::load_shot(file, triangles, quality::read_light_texture, shown);
+  if (std::error_code error; !file.has_extension() && !std::filesystem::exists(file, error)) {
+    throw Error(ExitCode::bad_file, name, "there is no such scene", scene_help());
+  }
+  return scene::import_scene(file, shown);
 }
 
 Subject make_subject(const Options& options) {

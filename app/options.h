@@ -67,6 +67,10 @@ struct Subject {
   int scenes() const { return path && path->moves_objects() ? 2 : 1; }
 };
 
+/// The scene as its file or its maker has it.
+/// @throws scene::Error (usage, bad_file)
+scene::Scene load_scene(const Options& options);
+
 /// Loads the scene and makes all choices of the view.
 /// @throws scene::Error (usage, bad_file)
 Subject make_subject(const Options& options);

@@ -27,6 +27,17 @@ struct Edges {
   }
 };
 
+/// On all cores; the same on any number of them.
 Edges find_edges(const Geometry& geometry);
+
+struct EdgeCounts {
+  std::size_t by_vertex = 0;         ///< edges whose ends are vertices, as a file has them
+  std::size_t by_position = 0;       ///< those of find_edges; of these:
+  std::size_t open = 0;              ///< of one triangle
+  std::size_t of_more_than_two = 0;  ///< triangles
+  std::size_t most_triangles = 0;    ///< of one edge
+};
+
+EdgeCounts count_edges(const Geometry& geometry);
 
 }  // namespace airlight::scene
