@@ -254,6 +254,9 @@ class Tuner {
         } catch (const scene::Error&) {
           continue;  // it contradicts another option
         }
+        // With some settings of the others an option is not looked at.
+        if (frame::text_of(option.get(other.volume.method->const_address(other.volume.options))) == now)
+          continue;
         try_out(std::string(option.text.name), now, std::string(value), other);
       }
     }

@@ -23,7 +23,7 @@
 # trees         tree-march against march and vsv, 512×512, and in coloured light, 256×144: sweeps
 # surfaces      every surface method, 512×512: time, bytes, wrong and undecided pixels
 # charts        every method at 68 settings in all, 512×512, five scenes: sweeps, and a page each
-# tuned         `airlight tune` against sweeps of the same 66 settings, those five scenes and five more, 256×256
+# tuned         `airlight tune` against sweeps of the same 66 settings: those of charts, and five scenes more, 256×256
 # The models are not part of the project: AIRLIGHT_SHARED is the folder that holds scenes/ (default ../shared).
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -269,15 +269,17 @@ case ${1:-} in
     done
     ;;
   tuned)
-    for scene in window sponza fence maple sun_sponza staircase house bunny_closed lucy arboretum; do
-      sweep "$scene" --size 256x256 --surface none --frames 6 -o "$out/tuned_$scene" --quiet --volume "$every_setting"
-      for error in 0.02 0.01 0.005; do
+    tuned() { # SCENE SIZE FOLDER ROUNDS
+      sweep "$1" --size "$2" --surface none --frames "$4" -o "$3" --quiet --volume "$every_setting"
+      for error in 0.02 0.01; do
         # shellcheck disable=SC2086
-        ./run tune ${view[$scene]} --size 256x256 --surface none --shadow-map 2048 --volume "$every_setting" --quiet \
-          --max-error $error --json "$out/tuned_$scene/$error.json" >/dev/null || true
+        ./run tune ${view[$1]} --size "$2" --surface none --shadow-map 2048 --volume "$every_setting" --quiet \
+          --max-error $error --json "$3/$error.json" >/dev/null || true
       done
-      tests/bench/tuned.py "$out/tuned_$scene"
-    done
+      tests/bench/tuned.py "$3"
+    }
+    for scene in window fence maple sun_sponza sponza; do tuned $scene 512x512 "$out/chart_$scene" 6; done
+    for scene in staircase house lucy bunny_closed arboretum; do tuned $scene 256x256 "$out/tuned_$scene" 3; done
     ;;
   *)
     echo "usage: tests/bench/scenes.sh truth|accuracy|speed|sun|sun-speed|sun-curves|far|quadrature|lights|curves|cost|leaks|causes|path|rivals|rows|flicker|bits-or-tree|trees|surfaces|charts|tuned [OUT]" >&2
