@@ -54,8 +54,8 @@ class FirstLook {
   void trace(const scene::Geometry& geometry, const VolumeChoice& fine, const VolumeChoice& coarse) {
     for (OfView& of_view : views_) {
       tell("truth");
-      const std::vector<glm::vec3> image = render(of_view, fine).airlight;
-      const TileDraw draw(of_view.view->size, image, render(of_view, coarse).airlight);
+      const std::array images = {render(of_view, fine).airlight, render(of_view, coarse).airlight};
+      const TileDraw draw(of_view.view->size, images);
       std::vector<DrawnTile> all;
       for (std::size_t half = 0; half < k_halves; ++half) {
         of_view.tiles[half] =

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <random>
 #include <utility>
@@ -14,7 +16,7 @@ namespace airlight::quality {
 namespace {
 
 constexpr int k_tile = reference::Reference::k_tile;
-/// What tiles in which the two images are alike are given of the mean.
+/// What tiles in which the images are alike are given of the mean.
 constexpr double k_least_part = 0.2;
 
 /// Calls f with the index of each of a tile's pixels.
@@ -24,6 +26,21 @@ void for_each_pixel(glm::ivec2 size, glm::ivec2 tile, const Function& f) {
   for (int y = from.y; y < to.y; ++y)
     for (int x = from.x; x < to.x; ++x)
       f(static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(x));
+}
+
+/// Of each pixel and channel.
+std::vector<glm::vec3> median_of(std::span<const std::vector<glm::vec3>> images) {
+  std::vector<glm::vec3> median(images[0].size());
+  std::vector<float> values(images.size());
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  for (std::size_t i = 0; i < median.size(); ++i) {
+    for (int channel = 0; channel < 3; ++channel) {
+      for (std::size_t k = 0; k < images.size(); ++k) values[k] = images[k][i][channel];
+      std::nth_element(values.begin(), middle, values.end());
+      median[i][channel] = *middle;
+    }
+  }
+  return median;
 }
 
 }  // namespace
@@ -37,19 +54,26 @@ std::vector<std::size_t> views_to_look_at(std::size_t count) {
   return numbers;
 }
 
-TileDraw::TileDraw(glm::ivec2 size, std::span<const glm::vec3> a, std::span<const glm::vec3> b)
-    : columns_rows_((size + k_tile - 1) / k_tile) {
-  double sum = 0.0;
-  for (int row = 0; row < columns_rows_.y; ++row) {
-    for (int column = 0; column < columns_rows_.x; ++column) {
-      double squares = 0.0;
-      for_each_pixel(size, {column, row}, [&](std::size_t i) {
-        const glm::dvec3 difference = glm::dvec3(a[i]) - glm::dvec3(b[i]);
-        squares += glm::dot(difference, difference);
-      });
-      sum += probability_.emplace_back(std::sqrt(squares));
+TileDraw::TileDraw(glm::ivec2 size, std::span<const std::vector<glm::vec3>> images)
+    : columns_rows_((size + k_tile - 1) / k_tile),
+      probability_(static_cast<std::size_t>(columns_rows_.x) * static_cast<std::size_t>(columns_rows_.y)) {
+  const std::vector<glm::vec3> median = median_of(images);
+  for (const std::vector<glm::vec3>& image : images) {
+    std::vector<double> differences;
+    for (int row = 0; row < columns_rows_.y; ++row) {
+      for (int column = 0; column < columns_rows_.x; ++column) {
+        double squares = 0.0;
+        for_each_pixel(size, {column, row}, [&](std::size_t i) {
+          const glm::dvec3 difference = glm::dvec3(image[i]) - glm::dvec3(median[i]);
+          squares += glm::dot(difference, difference);
+        });
+        differences.push_back(std::sqrt(squares));
+      }
     }
+    const double all = std::accumulate(differences.begin(), differences.end(), 0.0);
+    for (std::size_t i = 0; all > 0.0 && i < differences.size(); ++i) probability_[i] += differences[i] / all;
   }
+  double sum = std::accumulate(probability_.begin(), probability_.end(), 0.0);
   const double least = sum > 0.0 ? k_least_part * sum / static_cast<double>(tiles()) : 1.0;
   sum += least * static_cast<double>(tiles());
   for (double& probability : probability_) probability = (probability + least) / sum;

@@ -21,12 +21,14 @@ struct DrawnTile {
   double weight;    ///< 1 / (how often it is drawn on average)
 };
 
-/// Draws tiles of reference::Reference::k_tile² pixels, the more likely the more two images differ there;
-/// none is out of the question.
+/// Draws tiles of reference::Reference::k_tile² pixels, the more likely the more images of a view by several
+/// settings differ there; none is out of the question.
 class TileDraw {
  public:
-  /// @param a, b row 0 at the top
-  TileDraw(glm::ivec2 size, std::span<const glm::vec3> a, std::span<const glm::vec3> b);
+  /// Each image counts for as much as any other, however far it is from their median altogether: one that is
+  /// nowhere right does not hide where good ones err.
+  /// @param images row 0 at the top
+  TileDraw(glm::ivec2 size, std::span<const std::vector<glm::vec3>> images);
 
   std::size_t tiles() const { return probability_.size(); }
 

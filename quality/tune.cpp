@@ -19,6 +19,7 @@
 namespace airlight::quality {
 namespace {
 
+constexpr std::size_t k_drawn = 8;  ///< settings whose images tell where errors may lie
 constexpr std::size_t k_finalists = 6;
 constexpr double k_nearly = 1.3;  ///< what is timed again may take so much more than the quickest
 
@@ -73,22 +74,23 @@ class Tuner {
   void choose_views() {
     const auto& views = request_.subject.views;
     const std::vector<std::size_t> numbers = views_to_look_at(views.size());
-    // Every other one of a path's is for judging. Two ways to show each, as different as the settings are,
-    // tell where errors may lie.
-    //, as different as the settings are, tell where errors may lie.
-    const Setting &first = request_.settings.front(), &last = request_.settings.back();
+    // Every other one of a path's is for judging. Images by several settings tell where errors may lie.
+    const std::size_t drawn = std::min(request_.settings.size(), k_drawn);
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       const scene::View& view = views[numbers[i]];
       tell("truth", static_cast<double>(i) / static_cast<double>(numbers.size()));
-      const auto image = [&](const Setting& setting) {
+      std::vector<std::vector<glm::vec3>> images;
+      for (std::size_t k = 0; k < drawn; ++k) {
+        const Setting& setting =
+            request_.settings[drawn == 1 ? 0 : k * (request_.settings.size() - 1) / (drawn - 1)];
         Measurer& measurer = measurer_of(setting);
         measurer.look_at(view);
         ++frames_;
-        return measurer.render(setting.volume, setting.surface).airlight;
-      };
-      const TileDraw draw(view.size, image(first), image(last));
+        images.push_back(measurer.render(setting.volume, setting.surface).airlight);
+      }
+      const TileDraw draw(view.size, images);
       const bool is_alone = numbers.size() == 1;
-      const std::size_t tiles = std::max<std::size_t>(24, draw.tiles() / 100);
+      const std::size_t tiles = std::max<std::size_t>(48, draw.tiles() / 50);
       std::vector<DrawnTile> chosen, judged;
       if (is_alone || i % 2 == 0) chosen = draw.drawn(tiles, 1);
       if (is_alone || i % 2 == 1) judged = draw.drawn(tiles, 2);

@@ -61,8 +61,8 @@ struct Tuned {
 
 /// Finds the setting with few pixels of truth and few frames.
 ///
-/// The truth is traced in tiles of 8 × 8 pixels, about a hundredth of the image for choosing and as many for
-/// judging, which are drawn where images of two settings differ most: an error that is estimated from tiles
+/// The truth is traced in tiles of 8 × 8 pixels, about a fiftieth of the image for choosing and as many for
+/// judging, which are drawn where images of some settings differ most: an error that is estimated from tiles
 /// drawn with a known probability, each divided by it, is that of the whole image on average (Hansen and
 /// Hurwitz, "On the Theory of Sampling from Finite Populations", Annals of Mathematical Statistics 14, 1943).
 /// Each setting is drawn twice; those that reach the goal and are nearly as good as the best are then timed

@@ -1,6 +1,7 @@
 #include "quality/truth_sample.h"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ TEST(TileDraw, DrawsEachTileAsOftenAsItsWeightSays) {
   const glm::ivec2 size(60, 33);  // the last tiles are cut
   std::vector<glm::vec3> a(60 * 33), b(60 * 33);
   for (std::size_t i = 0; i < 500; ++i) b[i] = glm::vec3(0.1f * static_cast<float>(i % 7));
-  const TileDraw draw(size, a, b);
+  const TileDraw draw(size, std::array{a, b});
   ASSERT_EQ(draw.tiles(), 8u * 5u);
   std::vector<double> sum(draw.tiles());
   constexpr int k_seeds = 20000;
@@ -32,6 +33,19 @@ TEST(TileDraw, DrawsEachTileAsOftenAsItsWeightSays) {
   const auto drawn = draw.drawn(12, 1);
   EXPECT_GT(std::count_if(drawn.begin(), drawn.end(), [](const DrawnTile& tile) { return tile.tile.y <= 1; }),
             6);
+}
+
+TEST(TileDraw, IsNotMadeBlindByAnImageThatIsWrongEverywhere) {
+  const glm::ivec2 size(80, 80);
+  std::vector<std::vector<glm::vec3>> images(5, std::vector<glm::vec3>(80 * 80, glm::vec3(1.0f)));
+  for (std::size_t i = 0; i < images[0].size(); ++i)
+    images[0][i] = glm::vec3(static_cast<float>(i % 9) * 100.0f);
+  for (std::size_t x = 40; x < 48; ++x)
+    images[2][80 * 20 + x] = glm::vec3(1.01f);  // of one tile, a little off
+  const auto drawn = TileDraw(size, images).drawn(20, 1);
+  EXPECT_GT(std::count_if(drawn.begin(), drawn.end(),
+                          [](const DrawnTile& tile) { return tile.tile == glm::ivec2(5, 2); }),
+            5);
 }
 
 class ErrorOfCornell : public testing::Test {
@@ -72,7 +86,7 @@ TEST_F(ErrorOfCornell, TruthIsThatOfTheWholeImage) {
 }
 
 TEST_F(ErrorOfCornell, IsThatOfTheWholeImageWhereAllTilesAreDrawn) {
-  const TileDraw draw(view_.size, truth_.airlight(), truth_.airlight());
+  const TileDraw draw(view_.size, std::array{truth_.airlight(), truth_.airlight()});
   const std::vector<DrawnTile> all = draw.drawn(draw.tiles(), 1);
   EXPECT_EQ(TruthOfTiles(scene_.geometry, view_, all).pixels(), 48u * 48u);
   ErrorOfTiles error;
@@ -83,7 +97,7 @@ TEST_F(ErrorOfCornell, IsThatOfTheWholeImageWhereAllTilesAreDrawn) {
 TEST_F(ErrorOfCornell, IsFoundWithFewTilesWhereTheErrorLies) {
   std::vector<glm::vec3> other = truth_.airlight();
   for (std::size_t i = 0; i < 12 * 48; ++i) other[i] *= 0.98f;
-  const TileDraw draw(view_.size, truth_.airlight(), other);
+  const TileDraw draw(view_.size, std::array{truth_.airlight(), other});
   double mean = 0.0;
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     const std::vector<DrawnTile> drawn = draw.drawn(12, seed);
