@@ -91,7 +91,9 @@ std::size_t weld(const std::vector<glm::vec3>& positions, std::vector<std::uint3
 Edges edges_between(const Geometry& geometry, std::vector<std::uint32_t> end_of_vertex, std::size_t ends) {
   struct Side {
     std::uint32_t upper, triangle;
-    auto operator<=>(const Side&) const = default;
+    bool operator<(const Side& other) const {
+      return std::tie(upper, triangle) < std::tie(other.upper, other.triangle);
+    }
   };
   const std::size_t side_count = 3 * geometry.triangles.size();
   std::vector<std::uint32_t> lower(side_count);
