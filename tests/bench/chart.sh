@@ -9,8 +9,9 @@ shift
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 "$airlight" report "$@" -o "$work/report.html" --quiet
-chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --user-data-dir="$work/profile" --window-size=1200,900 \
-  --virtual-time-budget=10000 --dump-dom "file://$work/report.html" 2>/dev/null >"$work/dom.html"
+source "$(dirname "$0")/../page/chromium.sh"
+headless "$work/profile" --window-size=1200,900 --virtual-time-budget=10000 --dump-dom "file://$work/report.html" \
+  2>/dev/null >"$work/dom.html"
 tr '\n' ' ' <"$work/dom.html" | sed 's/.*<div id="chart">\(<svg.*<\/svg>\)<\/div>.*/\1/; s/ \(role\|tabindex\|data-run\|aria-[a-z]*\)="[^"]*"//g; s/<\/div>.*//' >"$chart"
 grep -q '^<svg' "$chart" || { echo "chart.sh: the page has no chart" >&2; exit 1; }
 runs=("$1"/*.jsonl "$1"/results.json)

@@ -7,10 +7,8 @@ report=$(realpath "$1")
 out=$(realpath "${2:-out}")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-open_page() {
-  chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --no-first-run --disable-background-networking \
-    --user-data-dir="$work/profile" --hide-scrollbars "$@" 2>/dev/null
-}
+source "$(dirname "$0")/../page/chromium.sh"
+open_page() { headless "$work/profile" "$@" 2>/dev/null; }
 # Chromium writes the page down when it is loaded: an image that is long in coming holds that up until the viewer has painted.
 python3 -c '
 import http.server, time

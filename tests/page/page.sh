@@ -4,7 +4,8 @@
 set -uo pipefail
 airlight=$(realpath "$1")
 here=$(realpath "$(dirname "$0")")
-chromium=$(command -v chromium || command -v chromium-browser) || { echo "Skipped: there is no chromium"; exit 77; }
+source "$here/chromium.sh"
+[ -n "$chromium" ] || { echo "Skipped: there is no chromium"; exit 77; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
@@ -20,9 +21,8 @@ volumes=vsv:alpha=32:theta=64:phi=128,vsv:alpha=64:theta=128:phi=128,march:steps
 open_page() { # WIDTH PAGE OPTIONS...
   local width=$1 page=$2
   shift 2
-  timeout 120 "$chromium" --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --no-first-run --disable-background-networking \
-    --disable-component-update --user-data-dir="$work/profile" --window-size="$width,900" --hide-scrollbars --virtual-time-budget=60000 \
-    --enable-logging=stderr "$@" "file://$work/$page" 2>"$work/log"
+  headless "$work/profile" --window-size="$width,900" --virtual-time-budget=60000 --enable-logging=stderr "$@" "file://$work/$page" \
+    2>"$work/log"
 }
 for width in 1280 820 500; do
   open_page $width walk.html --dump-dom >dom.html || { cat log; fail "chromium ends with $?"; }
