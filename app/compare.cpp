@@ -11,7 +11,6 @@
 #include "app/commands.h"
 #include "app/memory.h"
 #include "app/output.h"
-#include "app/settings.h"
 #include "quality/first_look.h"
 #include "quality/report.h"
 #include "scene/numbers.h"
@@ -106,7 +105,7 @@ void compare(const Options& options) {
       throw Error(ExitCode::usage, "--max-undecided", fmt::format("'{}' is not between 0 and 1", *text));
   }
   Subject subject = make_subject(options);
-  const AutomaticCounts automatic = fit_to_view(volumes, surfaces, subject);
+  const quality::AutomaticCounts automatic = fit_to_view(volumes, surfaces, subject);
   const std::filesystem::path folder = output_folder(options);
   require_folder(folder);
   const auto json = options.get("json");
@@ -134,8 +133,8 @@ void compare(const Options& options) {
   {
     ProgressLine progress(options.quiet);
     gpu::Context context;
-    take_first_looks(context, subject, volumes, automatic, shadow_map,
-                     limit.value_or(quality::k_first_look_error), progress.follower());
+    quality::take_first_looks(context, subject.scene.geometry, subject.views(), volumes, automatic,
+                              shadow_map, limit.value_or(quality::k_first_look_error), progress.follower());
     comparison = quality::compare(context, {.scene_name = options.scene,
                                             .scene = subject.scene,
                                             .view = subject.view,

@@ -31,11 +31,9 @@ void add_option(CLI::App& command, const OptionLine& line) {
       ->take_last();
 }
 
-constexpr const char* k_tev = "--tev";  ///< a flag that may have a value
-
 /// Of a command that renders.
 void add_tev(CLI::App& command, Options& options) {
-  command.add_flag(fmt::format("{}{{{}}}", k_tev, quality::Tev::k_address), options.tev,
+  command.add_flag(fmt::format("--tev{{{}}}", quality::Tev::k_address), options.tev,
                    fmt::format("also show the images in a running tev as they are rendered; --tev=HOST:PORT "
                                "where it is not at {}",
                                quality::Tev::k_address));
@@ -98,8 +96,10 @@ std::vector<std::pair<std::string, std::string>> read_words(const CLI::App& app,
     if (!is_of_light && !seen.insert(option).second)
       throw Error(ExitCode::usage, name, "it is given twice", "give it once");
     const bool takes_value = option->get_items_expected_max() > 0, has_value = word.size() > name.size();
-    const bool may_take_value = name == k_tev;
-    if (!takes_value && has_value && !may_take_value)
+    // A flag that stands for a value may be given another.
+    const bool stands_for_value =
+        !takes_value && is_long && option->get_flag_value(name.substr(2), "") != "true";
+    if (!takes_value && has_value && !stands_for_value)
       throw Error(ExitCode::usage, word, fmt::format("{} takes no value", name));
     if (takes_value && !has_value && ++i == argc)
       throw Error(ExitCode::usage, name, fmt::format("its {} is missing", option->get_type_name()), help);

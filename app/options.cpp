@@ -11,7 +11,6 @@
 
 #include "app/memory.h"
 #include "frame/option.h"
-#include "quality/first_look.h"
 #include "quality/light_texture.h"
 #include "quality/results.h"
 #include "scene/builtin.h"
@@ -264,9 +263,9 @@ void take_usual_methods(const Options& options, const Subject& subject,
   require_read(options, volumes, surfaces);
 }
 
-AutomaticCounts fit_to_view(std::vector<quality::VolumeChoice>& volumes,
-                            std::vector<quality::SurfaceChoice>& surfaces, Subject& subject) {
-  AutomaticCounts automatic;
+quality::AutomaticCounts fit_to_view(std::vector<quality::VolumeChoice>& volumes,
+                                     std::vector<quality::SurfaceChoice>& surfaces, Subject& subject) {
+  quality::AutomaticCounts automatic;
   for (const quality::VolumeChoice& volume : volumes) automatic.push_back(quality::automatic_counts(volume));
   for (quality::VolumeChoice& volume : volumes) volume.fit(subject.views());
   for (quality::SurfaceChoice& surface : surfaces) surface.fit(subject.views());

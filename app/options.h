@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "quality/first_look.h"
 #include "quality/methods.h"
 #include "scene/path.h"
 #include "scene/scene.h"
@@ -93,13 +94,10 @@ void take_usual_methods(const Options& options, const Subject& subject,
 void require_read(const Options& options, std::span<const quality::VolumeChoice> volumes,
                   std::span<const quality::SurfaceChoice> surfaces);
 
-/// Of each method of airlight the names of its counts that are automatic.
-using AutomaticCounts = std::vector<std::vector<std::string>>;
-
-/// Fits methods to the view; what counts are automatic, take_first_looks makes fewer.
+/// Fits methods to the view; what counts are automatic, quality::take_first_looks makes fewer.
 /// @throws scene::Error (usage) where a method asked for cannot show it
-AutomaticCounts fit_to_view(std::vector<quality::VolumeChoice>& volumes,
-                            std::vector<quality::SurfaceChoice>& surfaces, Subject& subject);
+quality::AutomaticCounts fit_to_view(std::vector<quality::VolumeChoice>& volumes,
+                                     std::vector<quality::SurfaceChoice>& surfaces, Subject& subject);
 
 /// The command of one pair of methods, but -o. What neither reads is left out.
 /// @param without names of options that the command does not have

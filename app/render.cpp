@@ -12,7 +12,6 @@
 #include "app/commands.h"
 #include "app/memory.h"
 #include "app/output.h"
-#include "app/settings.h"
 #include "frame/frame.h"
 #include "quality/darkness.h"
 #include "quality/first_look.h"
@@ -114,7 +113,7 @@ void write_video(const std::filesystem::path& video, const std::filesystem::path
 }
 
 /// The rrmse that automatic counts are to be enough for.
-double automatic_limit(const Options& options, const AutomaticCounts& automatic) {
+double automatic_limit(const Options& options, const quality::AutomaticCounts& automatic) {
   const auto text = options.get("max-error");
   if (!text) return quality::k_first_look_error;
   if (automatic[0].empty())
@@ -149,7 +148,7 @@ void render(const Options& options) {
   Subject subject = make_subject(options);
   take_usual_methods(options, subject, volumes, surfaces, shadow_map);
   require_one();
-  const AutomaticCounts automatic = fit_to_view(volumes, surfaces, subject);
+  const quality::AutomaticCounts automatic = fit_to_view(volumes, surfaces, subject);
   const double limit = automatic_limit(options, automatic);
   const quality::VolumeChoice& volume = volumes[0];
   const quality::SurfaceChoice& surface = surfaces[0];
@@ -184,7 +183,8 @@ void render(const Options& options) {
     ProgressLine progress(options.quiet);
     const quality::Progress follow = progress.follower();
     gpu::Context context;
-    take_first_looks(context, subject, volumes, automatic, shadow_map, limit, follow);
+    quality::take_first_looks(context, subject.scene.geometry, subject.views(), volumes, automatic,
+                              shadow_map, limit, follow);
     images.renderer = context.device().renderer;
     frame::Frame frame(context, subject.scene.geometry, shadow_map, {},
                        {options.get("cache").value_or(""), follow});

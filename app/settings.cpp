@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "quality/axes.h"
-#include "quality/first_look.h"
 #include "scene/error.h"
 #include "scene/numbers.h"
 
@@ -59,16 +58,6 @@ std::vector<quality::VolumeChoice> every_volume(const Options& options, const Su
   }
   if (volumes.empty()) throw Error(ExitCode::usage, options.command, "no method can show the view");
   return volumes;
-}
-
-void take_first_looks(gpu::Context& context, const Subject& subject,
-                      std::vector<quality::VolumeChoice>& volumes, const AutomaticCounts& automatic,
-                      int shadow_map, double limit, const quality::Progress& progress) {
-  for (std::size_t i = 0; i < volumes.size(); ++i) {
-    if (automatic[i].empty()) continue;
-    quality::take_first_look(context, subject.scene.geometry, subject.views(), volumes[i], automatic[i],
-                             shadow_map, limit, progress);
-  }
 }
 
 std::vector<quality::Setting> product(const std::vector<quality::VolumeChoice>& volumes,

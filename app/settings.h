@@ -24,12 +24,6 @@ std::vector<int> expanded_shadow_maps(std::string_view list);
 std::vector<quality::VolumeChoice> every_volume(const Options& options, const Subject& subject,
                                                 std::size_t most, std::size_t& refused);
 
-/// Gives each method's automatic counts what a first look at the scene says: quality::take_first_look.
-/// @param limit rrmse
-void take_first_looks(gpu::Context& context, const Subject& subject,
-                      std::vector<quality::VolumeChoice>& volumes, const AutomaticCounts& automatic,
-                      int shadow_map, double limit, const quality::Progress& progress);
-
 /// Each with each; a shadow map that neither method reads is no axis.
 std::vector<quality::Setting> product(const std::vector<quality::VolumeChoice>& volumes,
                                       const std::vector<quality::SurfaceChoice>& surfaces,

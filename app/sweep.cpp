@@ -65,7 +65,7 @@ void sweep(const Options& options) {
   std::size_t refused = 0;
   if (options.all) volumes = every_volume(options, subject, k_most_of_all, refused);
   require_read(options, volumes, surfaces);
-  const AutomaticCounts automatic = fit_to_view(volumes, surfaces, subject);
+  const quality::AutomaticCounts automatic = fit_to_view(volumes, surfaces, subject);
   quality::VolumeChoice baseline_volume = baselines[0];
   baseline_volume.fit(subject.views());
 
@@ -99,8 +99,8 @@ void sweep(const Options& options) {
   {
     ProgressLine progress(options.quiet);
     gpu::Context context;
-    take_first_looks(context, subject, volumes, automatic, shadow_maps[0], quality::k_first_look_error,
-                     progress.follower());
+    quality::take_first_looks(context, subject.scene.geometry, subject.views(), volumes, automatic,
+                              shadow_maps[0], quality::k_first_look_error, progress.follower());
     count = quality::sweep(
         context, file,
         {.subject = swept,

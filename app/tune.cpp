@@ -134,7 +134,7 @@ void tune(const Options& options) {
   const bool is_named = !volumes.empty();
   if (!is_named) volumes = every_volume(options, subject, k_most_of_each, refused);
   require_read(options, volumes, surfaces);
-  const AutomaticCounts automatic = fit_to_view(volumes, surfaces, subject);
+  const quality::AutomaticCounts automatic = fit_to_view(volumes, surfaces, subject);
   // What cannot show what light passes would be judged by another scene.
   if (!is_named && scene::transmits(subject.scene.geometry))
     std::erase_if(volumes,
@@ -156,8 +156,9 @@ void tune(const Options& options) {
     ProgressLine progress(options.quiet);
     gpu::Context context;
     const bool asks_for_error = goal.kind == quality::TuneGoal::Kind::error;
-    take_first_looks(context, subject, volumes, automatic, shadow_maps[0],
-                     asks_for_error ? goal.limit : quality::k_first_look_error, progress.follower());
+    quality::take_first_looks(context, subject.scene.geometry, subject.views(), volumes, automatic,
+                              shadow_maps[0], asks_for_error ? goal.limit : quality::k_first_look_error,
+                              progress.follower());
     tuned = quality::tune(context, {.subject = tuned_subject,
                                     .settings = product(volumes, surfaces, shadow_maps),
                                     .goal = goal,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -19,35 +20,27 @@ constexpr double k_margin = 0.8;
 constexpr double k_gain = 0.9;       ///< finer counts are worth it where the error is so much less
 constexpr std::size_t k_halves = 2;  ///< of the sample of the truth: both have to find counts enough
 
-const frame::Option& option_of(const VolumeChoice& volume, const std::string& name) {
-  return *std::find_if(volume.method->options.begin(), volume.method->options.end(),
-                       [&](const frame::Option& option) { return option.text.name == name; });
-}
-
 /// The choice with another count; none where the method has no such one.
 std::optional<VolumeChoice> with(const VolumeChoice& volume, const std::string& name, double factor) {
-  const frame::Option& option = option_of(volume, name);
+  const frame::Option& option = *volume.method->find(name);
   const int now = std::get<int>(option.get(volume.method->const_address(volume.options)));
   const auto& counts = std::get<frame::Counts>(option.values);
   const int units = static_cast<int>(factor * now / counts.multiple_of + 0.5);
   const int count = counts.multiple_of * units;
   if (count == now || !counts.allow(count)) return std::nullopt;
-  VolumeChoice other = volume;
   try {
-    option.set(other.method->address(other.options), name, fmt::format("{}", count));
-    other.method->validate(other.options);
+    return volume.with(option, fmt::format("{}", count));
   } catch (const scene::Error&) {
     return std::nullopt;  // it contradicts another option
   }
-  return other;
 }
 
 class FirstLook {
  public:
-  FirstLook(gpu::Context& context, const scene::Geometry& geometry, std::span<const scene::View> views,
-            int shadow_map, Progress progress)
-      : progress_(std::move(progress)), measurer_(context, geometry, views[0], shadow_map, {}, {}) {
-    for (const std::size_t i : views_to_look_at(views.size())) views_.push_back({&views[i], {}, {}});
+  FirstLook(Measurer& measurer, std::span<const scene::View> views, Progress progress)
+      : progress_(std::move(progress)), measurer_(measurer) {
+    for (const std::size_t i : evenly_spread(views.size(), k_looked_at))
+      views_.push_back({&views[i], {}, {}});
   }
 
   /// Traces the truth where two choices differ.
@@ -99,31 +92,15 @@ class FirstLook {
   }
 
   Progress progress_;
-  Measurer measurer_;
+  Measurer& measurer_;
   SurfaceChoice surface_ = parse_surfaces("none")[0];
   std::vector<OfView> views_;
   std::size_t frames_ = 0;
 };
 
-}  // namespace
-
-std::vector<std::string> automatic_counts(const VolumeChoice& volume) {
-  std::vector<std::string> names;
-  for (const frame::Option& option : volume.method->options) {
-    const auto* counts = std::get_if<frame::Counts>(&option.values);
-    if (counts && !counts->automatic.empty() &&
-        option.get(volume.method->const_address(volume.options)) == frame::OptionValue("auto"))
-      names.emplace_back(option.text.name);
-  }
-  return names;
-}
-
-void take_first_look(gpu::Context& context, const scene::Geometry& geometry,
-                     std::span<const scene::View> views, VolumeChoice& volume,
-                     std::span<const std::string> counts, int shadow_map, double limit,
-                     const Progress& progress) {
-  limit *= k_margin;
-  FirstLook look(context, geometry, views, shadow_map, progress);
+/// Makes the counts of one method fewer. @param limit that an error of the sample has to be within
+void make_fewer(FirstLook& look, const scene::Geometry& geometry, VolumeChoice& volume,
+                std::span<const std::string> counts, double limit) {
   VolumeChoice coarse = volume;
   for (const std::string& name : counts)
     if (const auto other = with(coarse, name, 0.25)) coarse = *other;
@@ -131,7 +108,7 @@ void take_first_look(gpu::Context& context, const scene::Geometry& geometry,
 
   double error = look.error_of(volume);
   for (const std::string& name : counts) {
-    if (std::get<frame::Counts>(option_of(volume, name).values).multiple_of == 1) continue;
+    if (std::get<frame::Counts>(volume.method->find(name)->values).multiple_of == 1) continue;
     while (error > limit) {
       const auto finer = with(volume, name, 2.0);
       if (!finer) break;
@@ -150,6 +127,33 @@ void take_first_look(gpu::Context& context, const scene::Geometry& geometry,
       volume = *coarser;
       return false;
     });
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> automatic_counts(const VolumeChoice& volume) {
+  std::vector<std::string> names;
+  for (const frame::Option& option : volume.method->options) {
+    const auto* counts = std::get_if<frame::Counts>(&option.values);
+    if (counts && !counts->automatic.empty() &&
+        option.get(volume.method->const_address(volume.options)) == frame::OptionValue("auto"))
+      names.emplace_back(option.text.name);
+  }
+  return names;
+}
+
+void take_first_looks(gpu::Context& context, const scene::Geometry& geometry,
+                      std::span<const scene::View> views, std::vector<VolumeChoice>& volumes,
+                      const AutomaticCounts& automatic, int shadow_map, double limit,
+                      const Progress& progress) {
+  std::optional<Measurer> measurer;
+  for (std::size_t i = 0; i < volumes.size(); ++i) {
+    if (automatic[i].empty()) continue;
+    if (!measurer)
+      measurer.emplace(context, geometry, views[0], shadow_map, Progress(), std::filesystem::path());
+    FirstLook look(*measurer, views, progress);
+    make_fewer(look, geometry, volumes[i], automatic[i], k_margin * limit);
   }
 }
 

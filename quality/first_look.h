@@ -14,21 +14,25 @@ constexpr double k_first_look_error = 0.01;
 /// The names of a method's counts that are automatic; none of one that is fitted to a view.
 std::vector<std::string> automatic_counts(const VolumeChoice& volume);
 
-/// Gives counts of a method that were automatic as few cells as the scene needs, by the rule of `tune`: the
+/// Of each of several methods its automatic_counts.
+using AutomaticCounts = std::vector<std::vector<std::string>>;
+
+/// Gives counts of methods that were automatic as few cells as the scene needs, by the rule of `tune`: the
 /// fewest of which an error is found that is not above a limit, by a sample of the truth.
 ///
 /// From the counts that the views ask for, a pixel apart, on, they are halved in turn, each until two samples
 /// of the truth no longer both find the error not above the limit. Counts along the light angle, which no
 /// view asks for, are doubled first while that helps. Images and truths alone decide, no time does, so the
 /// counts are the same in every run.
-/// @param volume fitted to the views
-/// @param counts automatic_counts of what it was before
-/// @param views of which up to six are looked at
+/// @param volumes fitted to the views
+/// @param automatic what of them was automatic before
+/// @param views of which up to k_looked_at are looked at
 /// @param shadow_map side of a face [texels]
-/// @throws scene::Error as the method does
-void take_first_look(gpu::Context& context, const scene::Geometry& geometry,
-                     std::span<const scene::View> views, VolumeChoice& volume,
-                     std::span<const std::string> counts, int shadow_map, double limit,
-                     const Progress& progress);
+/// @param limit rrmse
+/// @throws scene::Error as the methods do
+void take_first_looks(gpu::Context& context, const scene::Geometry& geometry,
+                      std::span<const scene::View> views, std::vector<VolumeChoice>& volumes,
+                      const AutomaticCounts& automatic, int shadow_map, double limit,
+                      const Progress& progress);
 
 }  // namespace airlight::quality

@@ -66,6 +66,15 @@ struct Choice {
   /// from view to view
   void fit(std::span<const scene::View> views);
 
+  /// The choice with another value of an option.
+  /// @throws scene::Error (usage) for a value that the option does not take, and where it contradicts another
+  Choice with(const frame::Option& option, std::string_view value) const {
+    Choice other = *this;
+    option.set(method->address(other.options), std::string(option.text.name), value);
+    method->validate(other.options);
+    return other;
+  }
+
   /// @param reference lent to methods of the CPU
   auto make(const gpu::Context& context, SharedReference& reference) const {
     auto made = method->make(context, options);

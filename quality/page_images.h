@@ -18,8 +18,9 @@ struct PageImages {
   /// "runs":
   /// {"NUMBER OF THE RUN": SOURCE}, "without": how many runs have none for want of room}. A SOURCE is
   /// {"whole", "flip", "crops": [...], "flip_crops": [...]}, each {"id": of the element, "width", "height"};
-  /// it has whole or, where a page holds whole images of other runs, crops alone; it has crops where the whole
-  /// image is none or reduced, and each in flip and flip_crops too, but the truth and where that is dark.
+  /// it has whole or, where a page holds whole images of other runs, crops alone; it has crops where the
+  /// whole image is none or reduced, and each in flip and flip_crops too, but the truth and where that is
+  /// dark.
   nlohmann::ordered_json json;
   std::string html;     ///< the elements
   std::string problem;  ///< why there are none

@@ -113,9 +113,9 @@ std::string page_of(const JoinedRuns& joined, const ReportOptions& options) {
     data["bound"] = joined.comparison.value(Json::json_pointer("/reference/bound"), Json());
     data["exposure"] = joined.comparison.value(Json::json_pointer("/exposure/value"), Json());
   }
-  data["compares_surfaces"] = compares_surfaces(joined);
-  for (const JoinedRun& run : joined.runs)
-    data["runs"].push_back(run_data(run, data["compares_surfaces"].get<bool>()));
+  const bool is_of_surfaces = compares_surfaces(joined);
+  data["compares_surfaces"] = is_of_surfaces;
+  for (const JoinedRun& run : joined.runs) data["runs"].push_back(run_data(run, is_of_surfaces));
   data["pixel"] = number_json(joined.runs[0].figures.pixel);
 
   std::string scripts;

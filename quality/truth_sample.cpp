@@ -45,10 +45,9 @@ std::vector<glm::vec3> median_of(std::span<const std::vector<glm::vec3>> images)
 
 }  // namespace
 
-std::vector<std::size_t> views_to_look_at(std::size_t count) {
-  constexpr std::size_t k_most = 6;
+std::vector<std::size_t> evenly_spread(std::size_t count, std::size_t most) {
   std::vector<std::size_t> numbers;
-  const std::size_t wanted = std::min(count, k_most);
+  const std::size_t wanted = std::min(count, most);
   for (std::size_t i = 0; i < wanted; ++i)
     numbers.push_back(wanted == 1 ? 0 : i * (count - 1) / (wanted - 1));
   return numbers;

@@ -12,8 +12,11 @@
 
 namespace airlight::quality {
 
-/// Of a path with so many views the numbers of those that stand for all: up to six, evenly spread.
-std::vector<std::size_t> views_to_look_at(std::size_t count);
+/// Of a path the views that stand for all.
+constexpr std::size_t k_looked_at = 6;
+
+/// Of so many things the numbers of up to `most`, evenly spread, the first and the last among them.
+std::vector<std::size_t> evenly_spread(std::size_t count, std::size_t most);
 
 /// A tile of an image, drawn with a known probability.
 struct DrawnTile {

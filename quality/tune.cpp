@@ -73,16 +73,14 @@ class Tuner {
 
   void choose_views() {
     const auto& views = request_.subject.views;
-    const std::vector<std::size_t> numbers = views_to_look_at(views.size());
+    const std::vector<std::size_t> numbers = evenly_spread(views.size(), k_looked_at);
     // Every other one of a path's is for judging. Images by several settings tell where errors may lie.
-    const std::size_t drawn = std::min(request_.settings.size(), k_drawn);
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       const scene::View& view = views[numbers[i]];
       tell("truth", static_cast<double>(i) / static_cast<double>(numbers.size()));
       std::vector<std::vector<glm::vec3>> images;
-      for (std::size_t k = 0; k < drawn; ++k) {
-        const Setting& setting =
-            request_.settings[drawn == 1 ? 0 : k * (request_.settings.size() - 1) / (drawn - 1)];
+      for (const std::size_t number : evenly_spread(request_.settings.size(), k_drawn)) {
+        const Setting& setting = request_.settings[number];
         Measurer& measurer = measurer_of(setting);
         measurer.look_at(view);
         ++frames_;
@@ -249,9 +247,8 @@ class Tuner {
       for (const std::string_view value : option.text.sweep) {
         if (value == now) continue;
         Setting other = best;
-        option.set(other.volume.method->address(other.volume.options), std::string(option.text.name), value);
         try {
-          other.volume.method->validate(other.volume.options);
+          other.volume = best.volume.with(option, value);
           other.volume.fit(request_.subject.views);
         } catch (const scene::Error&) {
           continue;  // it contradicts another option

@@ -66,19 +66,16 @@ std::size_t weld(const std::vector<glm::vec3>& positions, std::vector<std::uint3
   };
   welded.resize(positions.size());
   std::vector<std::uint32_t> first_number(k_parts + 1, 0);
-  const auto each_part = [&](const std::function<void(int)>& work) {
-    parallel(k_parts, [&] { return work; });
-  };
-  each_part([&](int part) {
-    const auto begin = order.begin() + starts[static_cast<std::size_t>(part)],
-               end = order.begin() + starts[static_cast<std::size_t>(part) + 1];
+  // As many runs as parts: each is one of those.
+  in_parts(k_parts, [&](int, std::size_t part, std::size_t) {
+    const auto begin = order.begin() + starts[part], end = order.begin() + starts[part + 1];
     std::sort(begin, end, [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
     std::uint32_t count = 0;
     for (auto at = begin; at != end; ++at) {
       if (at == begin || key(*at) != key(*(at - 1))) ++count;
       welded[*at] = count - 1;
     }
-    first_number[static_cast<std::size_t>(part) + 1] = count;
+    first_number[part + 1] = count;
   });
   std::partial_sum(first_number.begin(), first_number.end(), first_number.begin());
   in_parts(positions.size(), [&](int, std::size_t first, std::size_t end) {

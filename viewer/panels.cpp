@@ -180,10 +180,7 @@ void Viewer::edit_method(quality::Choice<MethodType>& choice, std::span<const Me
     }
     if (chosen) {
       try {
-        std::any options = choice.options;
-        option.set(choice.method->address(options), name, *chosen);
-        choice.method->validate(options);
-        choice.options = options;
+        choice = choice.with(option, *chosen);
       } catch (const scene::Error& error) {
         say(error.what());
       }
